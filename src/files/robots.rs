@@ -33,7 +33,7 @@ use crate::robots::cad::retype;
 use crate::robots::description::Part;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::comment;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::unsupported;
 use std::collections::BTreeMap;
 
 /// The freedoms that a redesign adds to the joints of a mechanism.
@@ -127,14 +127,9 @@ type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportErr
 
 /// Where a file beside the description says that the joint is there.
 fn beside(origin: &Origin, part: &Part) -> ImportError {
-    let root = origin.element(origin.root);
     let element = format!("loop \"{}\"", part.id);
-    let why = "the file of loop closures says that it is there".to_owned();
-    let remedy = "choose a joint of the description (--at)".to_owned();
-    let problem = RobotProblem::Unsupported {
-        element,
-        why,
-        remedy,
-    };
-    root.fail(None, problem)
+    let why = "the file of loop closures says that it is there";
+    let remedy = "choose a joint of the description (--at)";
+    let root = origin.element(origin.root);
+    root.fail(None, unsupported(&element, why, remedy))
 }

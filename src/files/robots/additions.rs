@@ -5,7 +5,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot};
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{known, unknown_name};
 use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
 use crate::robots::xml::Element;
 use std::collections::BTreeSet;
@@ -239,27 +239,14 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
     for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
-            let missing = RobotProblem::Missing {
-                element: e.label(),
-                what: format!("<{tag}>"),
-            };
-            e.child(&tag).ok_or_else(|| e.fail(None, missing))
+            let found = e.child(&tag);
+            found.ok_or_else(|| e.missing(&format!("<{tag}>")))
         };
         let b = part(&format!("body_{body}"))?;
         let name = b.attribute("name").unwrap_or_else(|| b.text());
         let (link, frame) = robot.frame(name).ok_or_else(|| {
-            let (what, known) = (
-                "link",
-                known("links", robot.links.iter().map(String::as_str)),
-            );
-            let (element, name) = (e.label(), name.to_owned());
-            let problem = RobotProblem::UnknownName {
-                element,
-                what,
-                name,
-                known,
-            };
-            b.fail(Some("name"), problem)
+            let known = known("links", &robot.links);
+            b.fail(Some("name"), unknown_name(&e.label(), "link", name, &known))
         })?;
         let p = part(point)?;
         let at = match p.numbers::<3>("value")? {

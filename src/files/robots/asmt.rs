@@ -6,7 +6,7 @@ use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{bad_value, known, missing, unknown_name, unknown_word};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
@@ -99,10 +99,8 @@ pub(crate) fn read(
 
 /// What a label has, or where it is missing.
 fn has<'a>(e: Element<'a>, label: &str) -> Result<Element<'a>, ImportError> {
-    e.child(label).ok_or_else(|| {
-        let (element, what) = (called(e), label.to_owned());
-        e.fail(None, RobotProblem::Missing { element, what })
-    })
+    let found = e.child(label);
+    found.ok_or_else(|| e.fail(None, missing(&called(e), label)))
 }
 
 fn name(e: Element<'_>) -> Result<&str, ImportError> {
@@ -133,16 +131,10 @@ fn pose(e: Element<'_>) -> Result<RigidMotion, ImportError> {
     let off = off.map(|(i, k)| (product.rotation[i][k] - f64::from(u8::from(i == k))).abs());
     let turned = length(rotation[2]) > 0.5 && determinant(&rotation) > 0.0;
     if off.fold(0.0, f64::max) > 1e-3 || !turned {
-        let (element, what) = (called(e), "RotationMatrix".to_owned());
         let found = matrix.text().replace(['\n', '\t'], " ");
-        let found = found.chars().take(60).collect();
-        let want = "write the rows of a rotation".to_owned();
-        let problem = RobotProblem::BadValue {
-            element,
-            what,
-            found,
-            want,
-        };
+        let found: String = found.chars().take(60).collect();
+        let want = "write the rows of a rotation";
+        let problem = bad_value(&called(e), "RotationMatrix", &found, want);
         return Err(matrix.fail(None, problem));
     }
     Ok(m)
@@ -181,13 +173,8 @@ fn connection(e: Element<'_>, markers: &Markers) -> Result<Connection, ImportErr
         let said = has(e, label)?;
         let path = said.text();
         markers.get(path).copied().ok_or_else(|| {
-            let problem = RobotProblem::UnknownName {
-                element: called(e),
-                what: "marker",
-                name: path.to_owned(),
-                known: known("markers", markers.keys().map(String::as_str)),
-            };
-            said.fail(None, problem)
+            let known = known("markers", markers.keys());
+            said.fail(None, unknown_name(&called(e), "marker", path, &known))
         })
     };
     let ((i, near), (j, far)) = (end("MarkerI")?, end("MarkerJ")?);
@@ -236,12 +223,7 @@ fn holds(e: Element<'_>) -> Result<Holds, ImportError> {
         "RackPinion" => Holds::RackPinion(figure(e, "pitchRadius")?),
         "Screw" => Holds::Screw(figure(e, "pitch")?),
         other => {
-            let problem = RobotProblem::UnknownWord {
-                element: called(e),
-                what: "type",
-                word: other.to_owned(),
-                known: KNOWN.to_owned(),
-            };
+            let problem = unknown_word(&called(e), "type", other, KNOWN);
             return Err(e.fail(None, problem));
         }
     })

@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::whole;
 use crate::robots::xml::Element;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -139,9 +139,8 @@ impl<'a> Edits<'a> {
         // The root's file is the first that was read.
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {
             let source = &sources[*source];
-            let message = "the change is in a file that is included; put the files together, for example by saving the model from MuJoCo as XML, or change joints of the main file (--at)".to_owned();
-            let problem = RobotProblem::Whole { message };
-            return Err(problem.at(&source.name, &source.text, Some(span.clone())));
+            let message = "the change is in a file that is included; put the files together, for example by saving the model from MuJoCo as XML, or change joints of the main file (--at)";
+            return Err(whole(message).at(&source.name, &source.text, Some(span.clone())));
         }
         // Stable: what stands at one place keeps its order.
         self.list.sort_by_key(|(_, span, _)| span.start);
@@ -149,10 +148,7 @@ impl<'a> Edits<'a> {
         for (_, span, by) in &self.list {
             if span.start < at {
                 let message = "two changes meet in one place; make them one at a time (--at)";
-                let problem = RobotProblem::Whole {
-                    message: message.to_owned(),
-                };
-                return Err(problem.at(&sources[0].name, text, Some(span.clone())));
+                return Err(whole(message).at(&sources[0].name, text, Some(span.clone())));
             }
             out.push_str(&text[at..span.start]);
             out.push_str(by);

@@ -14,7 +14,7 @@ use crate::robots::description::{Robot, Unit};
 use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{known, too_many, unknown_name, whole};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{self, Document, Element};
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,10 +79,8 @@ fn linked(
     let mut seen: BTreeSet<String> = wanted.iter().cloned().collect();
     while let Some(file) = wanted.pop() {
         if out.len() >= MAX_LINKED {
-            let (what, limit) = ("linked documents", MAX_LINKED);
-            return Err(document
-                .element(root)
-                .fail(None, RobotProblem::TooMany { what, limit }));
+            let problem = too_many("linked documents", MAX_LINKED);
+            return Err(document.element(root).fail(None, problem));
         }
         let bytes = match read(&file) {
             Ok(bytes) => bytes,
@@ -162,12 +160,8 @@ fn chosen<'a>(
     if let Some(wanted) = &options.assembly {
         let named = |o: &&Object<'a>| o.label() == wanted || o.name == wanted;
         return all.iter().find(named).copied().ok_or_else(|| {
-            let problem = RobotProblem::UnknownName {
-                element: "--assembly".to_owned(),
-                what: "assembly",
-                name: wanted.clone(),
-                known: known("assemblies", all.iter().map(Object::label)),
-            };
+            let known = known("assemblies", all.iter().map(Object::label));
+            let problem = unknown_name("--assembly", "assembly", wanted, &known);
             root.fail(None, problem)
         });
     }
@@ -175,9 +169,8 @@ fn chosen<'a>(
     // Of as many joints the first.
     let Some(&most) = all.iter().rev().max_by_key(count) else {
         let message =
-            "there is no assembly in the document; make one with FreeCAD's Assembly workbench"
-                .to_owned();
-        return Err(root.fail(None, RobotProblem::Whole { message }));
+            "there is no assembly in the document; make one with FreeCAD's Assembly workbench";
+        return Err(root.fail(None, whole(message)));
     };
     for other in all.iter().filter(|o| o.name != most.name) {
         let what = format!(

@@ -1,7 +1,7 @@
 //! Formats that are not read: a file in one is refused by name, with what to do instead.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::whole;
 
 /// A format that is not read.
 struct Foreign {
@@ -139,7 +139,7 @@ pub fn refuse(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
         None => Ok(()),
         Some(f) => {
             let message = format!("this is a {} file, which is not read; {}", f.name, f.remedy);
-            Err(RobotProblem::Whole { message }.at(name, "", None))
+            Err(whole(message).at(name, "", None))
         }
     }
 }

@@ -5,7 +5,7 @@
 //! changing joint values as little as possible, rigidly joined links become one, and the result is a mechanism and the
 //! entries of its file, with a [`Report`] of what was mapped, approximated and dropped.
 
-use crate::file::problem::ImportError;
+use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::schema::{MechanismFile, ToleranceEntry};
 use crate::file::text::mechanism_from_str;
@@ -23,7 +23,7 @@ use crate::robots::mechanism::loop_closing::size;
 use crate::robots::mechanism::{
     Entries, apply_pose, close_loops, entries, held, loop_options, root_link,
 };
-use crate::robots::problem::{ExportError, RobotProblem};
+use crate::robots::problem::{ExportError, whole};
 use crate::robots::warning::{Options, Reader, Report};
 use crate::robots::xml::{self, Document, Element};
 use crate::robots::{asmt, foreign};
@@ -73,7 +73,7 @@ fn root(
     let Some(found) = archive.member(DOCUMENT)? else {
         let message =
             format!("there is no {DOCUMENT} in the archive; it is not a FreeCAD document");
-        return Err(RobotProblem::Whole { message }.at(&name, "", None));
+        return Err(whole(message).at(&name, "", None));
     };
     document.read(&name, xml::utf8(&name, &found)?)
 }
@@ -99,7 +99,7 @@ pub fn import(
     };
     let read: Reader<'_> = &inner;
     let (format, mut robot) = described(&mut document, root, read, options)?;
-    let fail = |p: RobotProblem| p.at(name, "", None);
+    let fail = |p: ProblemKind| p.at(name, "", None);
     match &options.loops {
         Some((side, bytes)) => loops::add(side, bytes, &mut robot)?,
         None if format.word == "urdf" => loops::beside(name, read, &mut robot),
@@ -168,14 +168,13 @@ fn described(
     let Some((format, describe)) = of_root(&found) else {
         let known = roots();
         let element = document.element(root);
-        return Err(element.fail(None, RobotProblem::Format { found, known }));
+        let message = format!("the root element is <{found}>; {known} can be read");
+        return Err(element.fail(None, whole(message)));
     };
     expanded(document)?;
     let robot = describe(document, root, read, options)?;
     if robot.links.is_empty() {
-        let root = document.element(root);
-        let (element, what) = (root.label(), "links".to_owned());
-        return Err(root.fail(None, RobotProblem::Missing { element, what }));
+        return Err(document.element(root).missing("links"));
     }
     Ok((format, robot))
 }

@@ -6,6 +6,7 @@ pub(in crate::robots) mod loop_options;
 pub(in crate::robots) mod outputs;
 pub(in crate::robots) mod series_of_single_joints;
 
+use crate::file::problem::ProblemKind;
 use crate::file::read::value::LIMITS;
 use crate::file::schema::MechanismFile;
 use crate::file::write::Comment;
@@ -17,31 +18,21 @@ use crate::robots::description::{Part, Robot, coupling, free};
 use crate::robots::mechanism::entries::{Bodies, Content};
 use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
 use crate::robots::mechanism::outputs::link_of;
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{bad_value, known, unknown_name, whole};
 use crate::robots::warning::Options;
+use itertools::Itertools;
 use std::collections::BTreeSet;
 
-pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), RobotProblem> {
+pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), ProblemKind> {
     for (id, values) in &options.pose {
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == *id) else {
-            return Err(RobotProblem::UnknownName {
-                element: "the pose".to_owned(),
-                what: "joint",
-                name: id.clone(),
-                known: known("joints", robot.joints.iter().map(|j| j.id.as_str())),
-            });
+            let known = known("joints", robot.joints.iter().map(|j| &j.id));
+            return Err(unknown_name("the pose", "joint", id, &known));
         };
         if values.len() != joint.values.len() || !values.iter().all(|v| v.abs() <= 1e9) {
-            return Err(RobotProblem::BadValue {
-                element: format!("joint \"{id}\""),
-                what: "the pose".to_owned(),
-                found: values
-                    .iter()
-                    .map(f64::to_string)
-                    .collect::<Vec<_>>()
-                    .join(","),
-                want: format!("give {} finite numbers", joint.values.len()),
-            });
+            let (element, found) = (format!("joint \"{id}\""), values.iter().join(","));
+            let want = format!("give {} finite numbers", joint.values.len());
+            return Err(bad_value(&element, "the pose", &found, &want));
         }
         joint.values = values.iter().map(|v| v - joint.zero).collect();
     }
@@ -49,7 +40,7 @@ pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), Rob
 }
 
 /// The frame: the world where something hangs on it, else the link that is no joint's child.
-pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, RobotProblem> {
+pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, ProblemKind> {
     if let Some(name) = &options.frame {
         return link_of(robot, name);
     }
@@ -110,24 +101,21 @@ fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
 }
 
 /// Every link must hang on the frame.
-pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), RobotProblem> {
+pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
     let loose = loose(robot, tree);
     let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
     if loose.is_empty() {
         return Ok(());
     }
-    Err(RobotProblem::Whole {
-        message: format!(
-            "no joint connects {} with {}; add one, or use --floating to let every such part float",
-            loose
-                .iter()
-                .take(5)
-                .map(|l| format!("link \"{l}\""))
-                .collect::<Vec<_>>()
-                .join(", "),
-            robot.links[tree.roots[0]],
-        ),
-    })
+    let loose = loose
+        .iter()
+        .take(5)
+        .map(|l| format!("link \"{l}\""))
+        .join(", ");
+    let root = &robot.links[tree.roots[0]];
+    Err(whole(format!(
+        "no joint connects {loose} with {root}; add one, or use --floating to let every such part float"
+    )))
 }
 
 /// Closes the loops of a robot: as they stand, by moving joints, or not at all where the options say so.
@@ -135,7 +123,7 @@ pub(crate) fn close_loops(
     robot: &mut Robot,
     tree: &Tree,
     options: &Options,
-) -> Result<(), RobotProblem> {
+) -> Result<(), ProblemKind> {
     if tree.loops.is_empty() {
         return Ok(());
     }
@@ -159,11 +147,9 @@ pub(crate) fn close_loops(
     let (left, outside) = close(robot, tree);
     if left > ROUNDED * size {
         let widest = widest(robot, tree, size);
-        return Err(RobotProblem::Whole {
-            message: format!(
-                "the loops do not close, the widest is {widest}; give a pose nearby with --pose joint=value, or take it as it is with --open"
-            ),
-        });
+        return Err(whole(format!(
+            "the loops do not close, the widest is {widest}; give a pose nearby with --pose joint=value, or take it as it is with --open"
+        )));
     }
     if left > CLOSED * size {
         let what = format!(
@@ -248,7 +234,7 @@ pub(crate) fn entries(
     file: &str,
     format: &'static str,
     options: &Options,
-) -> Result<Entries, RobotProblem> {
+) -> Result<Entries, ProblemKind> {
     let places = places(robot, tree);
     let (bodies, joints) = rigid_bodies(robot, tree)?;
     let couplings = coupling::usable(robot, &joints);
@@ -290,7 +276,7 @@ pub(crate) fn entries(
 }
 
 /// What is rigidly joined as one body, and the joints between these; those within a body are told and left out.
-fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), RobotProblem> {
+fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), ProblemKind> {
     let kept = if robot.assembly {
         in_loops(robot, tree)
     } else {
@@ -315,23 +301,20 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
         robot.report.approximate(&format!("joint \"{id}\""), what);
     }
     if joints.is_empty() {
-        Err(RobotProblem::Rigid {
-            links: robot.links.len(),
-        })
+        let links = robot.links.len();
+        Err(ProblemKind::Rigid { links })
     } else {
         Ok((bodies, joints))
     }
 }
 
 /// No more links and joints than a mechanism file may have.
-fn within_limits(links: usize, joints: usize) -> Result<(), RobotProblem> {
+fn within_limits(links: usize, joints: usize) -> Result<(), ProblemKind> {
     let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
     match all.iter().find(|(_, count, limit)| count > limit) {
         None => Ok(()),
-        Some((what, count, limit)) => Err(RobotProblem::Whole {
-            message: format!(
-                "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
-            ),
-        }),
+        Some((what, count, limit)) => Err(whole(format!(
+            "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
+        ))),
     }
 }

@@ -17,7 +17,7 @@ use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free};
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::bad_value;
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
@@ -211,7 +211,7 @@ fn site(
         .insert(name.to_owned(), (w.link, place))
         .is_some()
     {
-        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+        return Err(e.duplicate());
     }
     robot
         .frames
@@ -233,7 +233,7 @@ fn body<'a>(
 ) -> Result<usize, ImportError> {
     let name = match e.attribute("name") {
         Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
-            return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+            return Err(e.duplicate());
         }
         Some(n) => n.to_owned(),
         None => format!("body-{}", robot.links.len()),
@@ -314,9 +314,7 @@ fn own_joints<'a>(
 /// The name of a joint: its own, or one made of its body's and its type.
 fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Result<String, ImportError> {
     match e.attribute("name") {
-        Some(n) if robot.joints.iter().any(|j| j.id == n) => {
-            Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }))
-        }
+        Some(n) if robot.joints.iter().any(|j| j.id == n) => Err(e.duplicate()),
         Some(n) => Ok(n.to_owned()),
         None => Ok(format!("{body}.{word}")),
     }
@@ -385,13 +383,7 @@ fn axis(e: Element<'_>, look: &Lookup<'_>) -> Result<Vector, ImportError> {
     if length(axis) >= 1e-9 {
         return Ok(axis);
     }
-    Err(e.fail(
-        Some("axis"),
-        RobotProblem::BadValue {
-            element: e.label(),
-            what: "axis".to_owned(),
-            found: look.attribute("axis").map_or("", |(_, v)| v).to_owned(),
-            want: "give a direction such as 0 0 1".to_owned(),
-        },
-    ))
+    let found = look.attribute("axis").map_or("", |(_, v)| v);
+    let want = "give a direction such as 0 0 1";
+    Err(e.fail(Some("axis"), bad_value(&e.label(), "axis", found, want)))
 }

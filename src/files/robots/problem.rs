@@ -1,91 +1,65 @@
 //! What can be wrong with a robot description, in words that name the element and the remedy.
 
-use crate::file::problem::{ImportError, ProblemKind};
-use std::ops::Range;
+use crate::file::problem::ProblemKind;
+use itertools::Itertools;
 use thiserror::Error;
 
-/// What is wrong.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[allow(
-    missing_docs,
-    reason = "the wording of each variant says what its fields are"
-)]
-pub(crate) enum RobotProblem {
-    #[error(
-        "the file has {bytes} bytes, more than the {limit} allowed; remove what is not kinematics"
-    )]
-    TooLarge { bytes: usize, limit: usize },
-    #[error("the file is not UTF-8 text (byte {at}); save it as UTF-8")]
-    NotUtf8 { at: usize },
-    #[error("{message}; the file is not well-formed XML")]
-    Xml { message: String },
-    #[error("the file declares entities; expand them first, for example with `xmllint --noent`")]
-    Entities,
-    #[error("elements are nested more than {limit} deep; flatten the file")]
-    TooDeep { limit: usize },
-    #[error("more than {limit} {what}; remove what is not kinematics")]
-    TooMany { what: &'static str, limit: usize },
-    #[error("the root element is <{found}>; {known} can be read")]
-    Format { found: String, known: String },
-    #[error("{element} has no {what}; add it")]
-    Missing { element: String, what: String },
-    #[error("{what} of {element} is \"{found}\"; {want}")]
-    BadValue {
-        element: String,
-        what: String,
-        found: String,
-        want: String,
-    },
-    #[error("{element} has the unknown {what} \"{word}\"; known: {known}")]
-    UnknownWord {
-        element: String,
-        what: &'static str,
-        word: String,
-        known: String,
-    },
-    #[error("{element} names the {what} \"{name}\", which there is not; {known}")]
-    UnknownName {
-        element: String,
-        what: &'static str,
-        name: String,
-        known: String,
-    },
-    #[error("{element} is there twice; names must be unique")]
-    Duplicate { element: String },
-    #[error("{element} cannot be mapped: {why}; {remedy}")]
-    Unsupported {
-        element: String,
-        why: String,
-        remedy: String,
-    },
-    #[error("{message}")]
-    Whole { message: String },
-    #[error(
-        "nothing can move: all {links} links are rigidly joined; there is no mechanism to analyse"
-    )]
-    Rigid { links: usize },
+/// A problem in words of its own.
+pub(crate) fn whole(message: impl Into<String>) -> ProblemKind {
+    let message = message.into();
+    ProblemKind::Syntax { message }
 }
 
-impl RobotProblem {
-    /// The problem with its place.
-    pub(crate) fn at(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
-        let kind = match self {
-            RobotProblem::Rigid { links } => ProblemKind::Rigid { links },
-            other => ProblemKind::Syntax {
-                message: other.to_string(),
-            },
-        };
-        kind.at(file, text, span)
-    }
+pub(crate) fn too_large(bytes: usize, limit: usize) -> ProblemKind {
+    whole(format!(
+        "the file has {bytes} bytes, more than the {limit} allowed; remove what is not kinematics"
+    ))
+}
+
+pub(crate) fn too_deep(limit: usize) -> ProblemKind {
+    whole(format!(
+        "elements are nested more than {limit} deep; flatten the file"
+    ))
+}
+
+pub(crate) fn too_many(what: &str, limit: usize) -> ProblemKind {
+    whole(format!(
+        "more than {limit} {what}; remove what is not kinematics"
+    ))
+}
+
+pub(crate) fn missing(element: &str, what: &str) -> ProblemKind {
+    whole(format!("{element} has no {what}; add it"))
+}
+
+pub(crate) fn bad_value(element: &str, what: &str, found: &str, want: &str) -> ProblemKind {
+    whole(format!("{what} of {element} is \"{found}\"; {want}"))
+}
+
+pub(crate) fn unknown_word(element: &str, what: &str, word: &str, known: &str) -> ProblemKind {
+    whole(format!(
+        "{element} has the unknown {what} \"{word}\"; known: {known}"
+    ))
+}
+
+/// A name that nothing has; `known` says what has one.
+pub(crate) fn unknown_name(element: &str, what: &str, name: &str, known: &str) -> ProblemKind {
+    whole(format!(
+        "{element} names the {what} \"{name}\", which there is not; {known}"
+    ))
+}
+
+pub(crate) fn unsupported(element: &str, why: &str, remedy: &str) -> ProblemKind {
+    whole(format!("{element} cannot be mapped: {why}; {remedy}"))
 }
 
 /// A list of names for a message, cut where it is long.
-pub(crate) fn known<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let all: Vec<&str> = names.collect();
+pub(crate) fn known(what: &str, names: impl IntoIterator<Item: AsRef<str>>) -> String {
+    let all: Vec<_> = names.into_iter().collect();
     if all.is_empty() {
         return format!("there are no {what}");
     }
-    let shown = all.iter().take(20).copied().collect::<Vec<_>>().join(", ");
+    let shown = all.iter().take(20).map(AsRef::as_ref).join(", ");
     let more = if all.len() > 20 { ", ..." } else { "" };
     format!("{what}: {shown}{more}")
 }

@@ -14,7 +14,6 @@ use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, plugin};
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::RobotProblem;
 use crate::robots::sdf::gearbox::gearbox;
 use crate::robots::sdf::include::Expanded;
 use crate::robots::sdf::joints::{joint, weld};
@@ -90,8 +89,7 @@ fn models<'a>(
     let of_worlds = root.named("world").flat_map(|w| w.named("model"));
     let models: Vec<Element<'_>> = root.named("model").chain(of_worlds).collect();
     let Some(first) = models.first() else {
-        let (element, what) = (root.label(), "<model>".to_owned());
-        return Err(root.fail(None, RobotProblem::Missing { element, what }));
+        return Err(root.missing("<model>"));
     };
     let name = first.attribute("name").unwrap_or("robot");
     name.clone_into(&mut robot.name);

@@ -10,7 +10,7 @@ use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, couple, leave_out, named, same_link};
 use crate::robots::description::{Part, Ratio, Robot, free};
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{bad_value, known, unknown_name};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 
@@ -78,7 +78,7 @@ fn link(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let name = e.required("name")?;
     e.room("links", robot.links.len())?;
     if robot.frame(name).is_some() {
-        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+        return Err(e.duplicate());
     }
     let l = robot.link(name, RigidMotion::IDENTITY);
     robot.said_by(l, e);
@@ -211,31 +211,17 @@ fn place(o: Element<'_>) -> Result<RigidMotion, ImportError> {
 
 /// The link that a child element such as `<parent link="..."/>` names.
 fn end(e: Element<'_>, tag: &str, robot: &Robot) -> Result<usize, ImportError> {
-    let missing = || RobotProblem::Missing {
-        element: e.label(),
-        what: format!("<{tag} link=\"...\"/>"),
-    };
-    let c = e.child(tag).ok_or_else(|| e.fail(None, missing()))?;
-    named_link(e, c, robot)
+    let missing = || e.missing(&format!("<{tag} link=\"...\"/>"));
+    named_link(e, e.child(tag).ok_or_else(missing)?, robot)
 }
 
 /// The link that `c`, a child of `e`, names.
 fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Result<usize, ImportError> {
     let name = c.required("link")?;
-    robot
-        .links
-        .iter()
-        .position(|l| l == name)
-        .ok_or_else(|| c.fail(Some("link"), unknown_link(e, name, robot)))
-}
-
-fn unknown_link(e: Element<'_>, name: &str, robot: &Robot) -> RobotProblem {
-    RobotProblem::UnknownName {
-        element: e.label(),
-        what: "link",
-        name: name.to_owned(),
-        known: known("links", robot.links.iter().map(String::as_str)),
-    }
+    robot.links.iter().position(|l| l == name).ok_or_else(|| {
+        let known = known("links", &robot.links);
+        c.fail(Some("link"), unknown_name(&e.label(), "link", name, &known))
+    })
 }
 
 fn axis(e: Element<'_>) -> Result<Vector, ImportError> {
@@ -246,15 +232,11 @@ fn axis(e: Element<'_>) -> Result<Vector, ImportError> {
 fn direction(e: Element<'_>, a: Element<'_>) -> Result<Vector, ImportError> {
     let v = a.vector("xyz", X)?;
     if length(v) < 1e-9 {
-        return Err(a.fail(
-            Some("xyz"),
-            RobotProblem::BadValue {
-                element: e.label(),
-                what: "the axis".to_owned(),
-                found: a.attribute("xyz").unwrap_or("").to_owned(),
-                want: "give a direction such as 0 0 1".to_owned(),
-            },
-        ));
+        let (found, want) = (
+            a.attribute("xyz").unwrap_or(""),
+            "give a direction such as 0 0 1",
+        );
+        return Err(a.fail(Some("xyz"), bad_value(&e.label(), "the axis", found, want)));
     }
     Ok(v)
 }
@@ -262,7 +244,7 @@ fn direction(e: Element<'_>, a: Element<'_>) -> Result<Vector, ImportError> {
 fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let name = e.required("name")?;
     if robot.joints.iter().any(|j| j.id == name) {
-        return Err(e.fail(Some("name"), RobotProblem::Duplicate { element: e.label() }));
+        return Err(e.duplicate());
     }
     let word = e.required("type")?;
     let links = [end(e, "parent", robot)?, end(e, "child", robot)?];
@@ -332,11 +314,8 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     let mut ends: Vec<Element<'_>> = ends.collect();
     ends.sort_by_key(|c| c.name());
     let [first, second] = ends[..] else {
-        let problem = RobotProblem::Missing {
-            element: e.label(),
-            what: "<link1 link=\"...\"/> and <link2 link=\"...\"/>, one of each".to_owned(),
-        };
-        return Err(e.fail(None, problem));
+        let what = "<link1 link=\"...\"/> and <link2 link=\"...\"/>, one of each";
+        return Err(e.missing(what));
     };
     let links = [named_link(e, first, robot)?, named_link(e, second, robot)?];
     if links[0] == links[1] {

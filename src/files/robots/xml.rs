@@ -2,9 +2,11 @@
 
 mod numbers;
 
-use crate::file::problem::ImportError;
+use crate::file::problem::{ImportError, ProblemKind};
 use crate::geom::vector::Vector;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::{
+    missing, too_deep, too_large, too_many, unknown_name, unknown_word, unsupported, whole,
+};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::ops::Range;
@@ -129,21 +131,13 @@ pub(crate) struct Element<'a> {
 
 /// Bytes as text.
 pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Result<String, ImportError> {
-    let fail = |p: RobotProblem| Err(p.at(name, "", None));
     if bytes.len() > MAX_BYTES {
-        return fail(RobotProblem::TooLarge {
-            bytes: bytes.len(),
-            limit: MAX_BYTES,
-        });
+        return Err(too_large(bytes.len(), MAX_BYTES).at(name, "", None));
     }
-    let text = match std::str::from_utf8(bytes) {
-        Ok(t) => t,
-        Err(e) => {
-            return fail(RobotProblem::NotUtf8 {
-                at: e.valid_up_to(),
-            });
-        }
-    };
+    let text = std::str::from_utf8(bytes).map_err(|e| {
+        let at = e.valid_up_to();
+        ProblemKind::NotUtf8 { at }.at(name, "", None)
+    })?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())
 }
 
@@ -175,12 +169,10 @@ impl Document {
     }
 }
 
-type Located = (RobotProblem, usize);
+type Located = (ProblemKind, usize);
 
-fn xml_problem(message: impl ToString) -> RobotProblem {
-    RobotProblem::Xml {
-        message: message.to_string(),
-    }
+fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
+    whole(format!("{message}; the file is not well-formed XML"))
 }
 
 /// Refuses control characters, which terminals would obey, but for those that lay out the text.
@@ -194,17 +186,15 @@ fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
 }
 
 /// Refuses one more element so deep, behind so many, or behind so many attributes.
-fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), RobotProblem> {
+fn few_enough(depth: usize, elements: usize, attributes: usize) -> Result<(), ProblemKind> {
     if depth >= MAX_DEPTH {
-        return Err(RobotProblem::TooDeep { limit: MAX_DEPTH });
+        return Err(too_deep(MAX_DEPTH));
     }
     if elements >= MAX_ELEMENTS {
-        let (what, limit) = ("elements", MAX_ELEMENTS);
-        return Err(RobotProblem::TooMany { what, limit });
+        return Err(too_many("elements", MAX_ELEMENTS));
     }
     if attributes > MAX_ATTRIBUTES.1 {
-        let (what, limit) = ("attributes", MAX_ATTRIBUTES.1);
-        return Err(RobotProblem::TooMany { what, limit });
+        return Err(too_many("attributes", MAX_ATTRIBUTES.1));
     }
     Ok(())
 }
@@ -254,7 +244,8 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
                 put(&plain, &open, nodes);
             }
             Event::DocType(t) if t.contains("<!ENTITY") => {
-                return Err((RobotProblem::Entities, before));
+                let message = "the file declares entities; expand them first, for example with `xmllint --noent`";
+                return Err((whole(message), before));
             }
             Event::Eof if !open.is_empty() => {
                 let name = &nodes[open[open.len() - 1]].name;
@@ -297,14 +288,8 @@ fn node(
             .into_owned();
         no_control(&value, &[]).map_err(|(problem, _)| (problem, span.start))?;
         if attributes.len() >= MAX_ATTRIBUTES.0 {
-            let what = "attributes of one element";
-            return Err((
-                RobotProblem::TooMany {
-                    what,
-                    limit: MAX_ATTRIBUTES.0,
-                },
-                span.start,
-            ));
+            let problem = too_many("attributes of one element", MAX_ATTRIBUTES.0);
+            return Err((problem, span.start));
         }
         if attributes.iter().any(|a| a.name == name) {
             let message = format!("the attribute {name} is there twice");
@@ -389,7 +374,7 @@ impl<'a> Element<'a> {
     }
 
     /// A problem with the element, or with one of its attributes.
-    pub(crate) fn fail(self, attribute: Option<&str>, problem: RobotProblem) -> ImportError {
+    pub(crate) fn fail(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
         let node = self.node();
         let span = node
             .attributes
@@ -402,46 +387,49 @@ impl<'a> Element<'a> {
 
     /// A part that cannot be read.
     pub(crate) fn unsupported(self, why: &str, remedy: &str) -> ImportError {
-        let problem = RobotProblem::Unsupported {
-            element: self.label(),
-            why: why.to_owned(),
-            remedy: remedy.to_owned(),
-        };
-        self.fail(None, problem)
+        self.fail(None, unsupported(&self.label(), why, remedy))
     }
 
     /// A word that is none of those known.
-    pub(crate) fn unknown_word(self, what: &'static str, word: &str, known: &str) -> ImportError {
-        let problem = RobotProblem::UnknownWord {
-            element: self.label(),
-            what,
-            word: word.to_owned(),
-            known: known.to_owned(),
-        };
-        self.fail(Some(what), problem)
+    pub(crate) fn unknown_word(self, what: &str, word: &str, known: &str) -> ImportError {
+        self.fail(Some(what), unknown_word(&self.label(), what, word, known))
     }
 
     /// Refuses one more of `what` where there are too many already.
-    pub(crate) fn room(self, what: &'static str, count: usize) -> Result<(), ImportError> {
+    pub(crate) fn room(self, what: &str, count: usize) -> Result<(), ImportError> {
         let limit = MAX_PARTS;
         if count < limit {
             return Ok(());
         }
-        Err(self.fail(None, RobotProblem::TooMany { what, limit }))
+        Err(self.fail(None, too_many(what, limit)))
     }
 
     /// The attribute that must be there.
     pub(crate) fn required(self, name: &str) -> Result<&'a str, ImportError> {
         self.attribute(name)
             .filter(|v| !v.trim().is_empty())
-            .ok_or_else(|| {
-                self.fail(
-                    None,
-                    RobotProblem::Missing {
-                        element: self.label(),
-                        what: format!("attribute {name}"),
-                    },
-                )
-            })
+            .ok_or_else(|| self.missing(&format!("attribute {name}")))
+    }
+
+    /// The problem that something is not there.
+    pub(crate) fn missing(self, what: &str) -> ImportError {
+        self.fail(None, missing(&self.label(), what))
+    }
+
+    /// The problem that the name is there twice.
+    pub(crate) fn duplicate(self) -> ImportError {
+        let message = format!("{} is there twice; names must be unique", self.label());
+        self.fail(Some("name"), whole(message))
+    }
+
+    /// The problem that an attribute, or the text, names what there is not.
+    pub(crate) fn unknown_name(
+        self,
+        key: &str,
+        what: &str,
+        name: &str,
+        known: &str,
+    ) -> ImportError {
+        self.fail(Some(key), unknown_name(&self.label(), what, name, known))
     }
 }

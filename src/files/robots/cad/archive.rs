@@ -1,7 +1,7 @@
 //! Zip archives, bounded: members read one by one, and an archive written again with one member changed.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::{too_large, whole};
 use crate::robots::xml::MAX_BYTES;
 use std::io::{Cursor, Read, Write};
 use zip::result::ZipError;
@@ -31,7 +31,7 @@ impl Archive {
 
     fn fail(&self, why: &ZipError) -> ImportError {
         let message = format!("the zip archive cannot be read: {why}; {REMEDY}");
-        RobotProblem::Whole { message }.at(&self.name, "", None)
+        whole(message).at(&self.name, "", None)
     }
 
     fn open(&self) -> Result<ZipArchive<Cursor<&[u8]>>, ImportError> {
@@ -57,9 +57,8 @@ impl Archive {
             .read_to_end(&mut out)
             .map_err(|e| self.fail(&ZipError::Io(e)))?;
         if out.len() > MAX_BYTES {
-            let (bytes, limit) = (out.len(), MAX_BYTES);
-            let problem = RobotProblem::TooLarge { bytes, limit };
-            return Err(problem.at(&format!("{}:{member}", self.name), "", None));
+            let name = format!("{}:{member}", self.name);
+            return Err(too_large(out.len(), MAX_BYTES).at(&name, "", None));
         }
         Ok(Some(out))
     }

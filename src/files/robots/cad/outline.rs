@@ -1,8 +1,8 @@
 //! Text laid out by tabs, a label in a line and its values one tab deeper, as elements: a label is one without attributes, and
 //! its text the lines below it that have nothing below them.
 
-use crate::file::problem::ImportError;
-use crate::robots::problem::RobotProblem;
+use crate::file::problem::{ImportError, ProblemKind};
+use crate::robots::problem::{too_deep, too_many, whole};
 use crate::robots::xml::{Document, MAX_DEPTH, MAX_ELEMENTS, Node, Source};
 
 impl Document {
@@ -26,12 +26,7 @@ impl Document {
     }
 }
 
-type Located = (RobotProblem, usize);
-
-fn whole(message: &str, at: usize) -> Located {
-    let message = message.to_owned();
-    (RobotProblem::Whole { message }, at)
-}
+type Located = (ProblemKind, usize);
 
 /// The lines as nodes whose places in the arena begin at `first`.
 fn outline(
@@ -56,18 +51,18 @@ fn outline(
             break;
         }
         if word.chars().any(|c| c.is_control() && c != '\t') {
-            return Err(whole("a control character is there; remove it", start));
+            let message = "a control character is there; remove it";
+            return Err((whole(message), start));
         }
         if nodes.len() >= MAX_ELEMENTS {
-            let (what, limit) = ("lines", MAX_ELEMENTS);
-            return Err((RobotProblem::TooMany { what, limit }, start));
+            return Err((too_many("lines", MAX_ELEMENTS), start));
         }
         if depth > open.len() || (depth == 0 && !nodes.is_empty()) {
             let message = "the line is not one tab deeper than what it belongs to; lay it out as OndselSolver does";
-            return Err(whole(message, start));
+            return Err((whole(message), start));
         }
         if depth >= MAX_DEPTH {
-            return Err((RobotProblem::TooDeep { limit: MAX_DEPTH }, start));
+            return Err((too_deep(MAX_DEPTH), start));
         }
         open.truncate(depth);
         let begins = start + depth;
@@ -79,7 +74,7 @@ fn outline(
         open.push(id);
     }
     if nodes.is_empty() {
-        return Err(whole("there is nothing in the file", 0));
+        return Err((whole("there is nothing in the file"), 0));
     }
     said(&mut nodes, first);
     Ok(nodes)

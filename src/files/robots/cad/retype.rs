@@ -11,7 +11,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::unsupported;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -179,11 +179,8 @@ pub(crate) fn retype(
 }
 
 fn cannot(part: &Part, element: Element<'_>, why: String) -> ImportError {
-    let problem = RobotProblem::Unsupported {
-        element: format!("joint \"{}\"", part.id),
-        why,
-        remedy: "choose another joint (--at)".to_owned(),
-    };
+    let joint = format!("joint \"{}\"", part.id);
+    let problem = unsupported(&joint, &why, "choose another joint (--at)");
     element.fail(None, problem)
 }
 

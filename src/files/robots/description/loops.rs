@@ -6,12 +6,12 @@
 //!   and `joint_type: [...]` of the joints that are not what the URDF says;
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
-use crate::file::problem::ImportError;
+use crate::file::problem::{ImportError, ProblemKind};
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{known, too_large, unknown_name, unknown_word, whole};
 use crate::robots::warning::Reader;
 use serde_json::{Map, Value};
 
@@ -21,19 +21,17 @@ const TYPES: &str = "revolute, prismatic, cylindrical, spherical (3d), fixed (6d
 
 /// Adds the closures that the file names.
 pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Result<(), ImportError> {
-    let text = std::str::from_utf8(bytes).unwrap_or("");
-    let fail = |p: RobotProblem| p.at(name, "", None);
-    if bytes.len() > MAX_BYTES {
-        let (bytes, limit) = (bytes.len(), MAX_BYTES);
-        return Err(fail(RobotProblem::TooLarge { bytes, limit }));
-    }
-    if let Err(e) = std::str::from_utf8(bytes) {
-        return Err(fail(RobotProblem::NotUtf8 {
-            at: e.valid_up_to(),
-        }));
-    }
-    let value = parse(name, text).map_err(|message| fail(RobotProblem::Whole { message }))?;
-    shapes(&value, robot).map_err(fail)
+    let mut added = || {
+        if bytes.len() > MAX_BYTES {
+            return Err(too_large(bytes.len(), MAX_BYTES));
+        }
+        let text = std::str::from_utf8(bytes).map_err(|e| {
+            let at = e.valid_up_to();
+            ProblemKind::NotUtf8 { at }
+        })?;
+        shapes(&parse(name, text).map_err(whole)?, robot)
+    };
+    added().map_err(|p| p.at(name, "", None))
 }
 
 /// Where a file beside a URDF names loops that nobody asked to read, says so and counts their rows. Such a file is called as the
@@ -106,11 +104,7 @@ fn parse(name: &str, text: &str) -> Result<Value, String> {
     }
 }
 
-fn whole(message: String) -> RobotProblem {
-    RobotProblem::Whole { message }
-}
-
-fn shapes(value: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
+fn shapes(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     match value {
         Value::Object(o) if o.contains_key("closed_loop") => pairs(o, robot),
         Value::Object(o) if o.contains_key("loop") => {
@@ -126,12 +120,12 @@ fn shapes(value: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
             Ok(())
         }
         _ => Err(whole(
-            "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]".to_owned(),
+            "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]",
         )),
     }
 }
 
-fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], RobotProblem> {
+fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], ProblemKind> {
     match o.get(key) {
         None => Ok(&[]),
         Some(Value::Array(items)) => Ok(items),
@@ -139,7 +133,7 @@ fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], RobotPr
     }
 }
 
-fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, RobotProblem> {
+fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
     v.and_then(Value::as_str).ok_or_else(|| {
         whole(format!(
             "{what} is missing or not a word; write it in quotes"
@@ -148,33 +142,24 @@ fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, RobotProblem> {
 }
 
 /// The link and place of a name: of a link or frame, or of the child's side of a joint.
-fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, RigidMotion), RobotProblem> {
+fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, RigidMotion), ProblemKind> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
-    robot.frame(name).ok_or_else(|| RobotProblem::UnknownName {
-        element: element.to_owned(),
-        what: "link, frame or joint",
-        name: name.to_owned(),
-        known: known("links and frames", robot.frames.keys().map(String::as_str)),
+    robot.frame(name).ok_or_else(|| {
+        let known = known("links and frames", robot.frames.keys());
+        unknown_name(element, "link, frame or joint", name, &known)
     })
 }
 
-fn joint_type(element: &str, word: &str) -> Result<JointType, RobotProblem> {
+fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
     Ok(match word.to_lowercase().as_str() {
         "6d" | "fixed" | "weld" => JointType::Fixed,
         "3d" | "spherical" | "ball" => JointType::Spherical,
         "revolute" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
         "cylindrical" => JointType::Cylindrical,
-        _ => {
-            return Err(RobotProblem::UnknownWord {
-                element: element.to_owned(),
-                what: "type",
-                word: word.to_owned(),
-                known: TYPES.to_owned(),
-            });
-        }
+        _ => return Err(unknown_word(element, "type", word, TYPES)),
     })
 }
 
@@ -183,7 +168,7 @@ fn put(
     ends: [(usize, RigidMotion); 2],
     kind: JointType,
     robot: &mut Robot,
-) -> Result<(), RobotProblem> {
+) -> Result<(), ProblemKind> {
     let links = ends.map(|e| e.0);
     if links[0] == links[1] {
         return Err(whole(format!(
@@ -200,7 +185,7 @@ fn put(
 }
 
 /// Gives the joints of `joint_name` the kinds of `joint_type`: those that URDF has no word for.
-fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> {
+fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     let (names, types) = (list(o, "joint_name")?, list(o, "joint_type")?);
     if names.len() != types.len() {
         return Err(whole(format!(
@@ -215,12 +200,8 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem
             word(Some(kind), "joint_type")?,
         );
         let Some(joint) = robot.joints.iter_mut().find(|j| j.id == name) else {
-            return Err(RobotProblem::UnknownName {
-                element: "joint_name".to_owned(),
-                what: "joint",
-                name: name.to_owned(),
-                known: known("joints", robot.joints.iter().map(|j| j.id.as_str())),
-            });
+            let known = known("joints", robot.joints.iter().map(|j| &j.id));
+            return Err(unknown_name("joint_name", "joint", name, &known));
         };
         let axis = |letter: u8| match letter {
             b'X' => Some(X),
@@ -239,12 +220,11 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem
             _ => None,
         };
         let Some((new, first, second)) = new else {
-            return Err(RobotProblem::UnknownWord {
-                element: format!("joint \"{name}\""),
-                what: "joint_type",
-                word: kind.to_owned(),
-                known: "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like".to_owned(),
-            });
+            let (joint, known) = (
+                format!("joint \"{name}\""),
+                "SPHERICAL, FIXED, CARDAN, UJOINT_XY and the like",
+            );
+            return Err(unknown_word(&joint, "joint_type", kind, known));
         };
         joint.values = vec![0.0; new.freedoms().len()];
         (joint.joint_type, joint.axis, joint.second) = (new, first, second);
@@ -256,7 +236,7 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem
 }
 
 /// The form of example-parallel-robots.
-fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> {
+fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     retyped(o, robot)?;
     let types = list(o, "type")?;
     for (i, pair) in list(o, "closed_loop")?.iter().enumerate() {
@@ -288,7 +268,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), RobotProblem> 
 }
 
 /// Numbers as a list, or as text with spaces as Drake writes them.
-fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, RobotProblem> {
+fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
     let bad = || {
         whole(format!(
             "{what} is not three finite numbers; write [0, 0, 1]"
@@ -309,7 +289,7 @@ fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, RobotProblem>
     }
 }
 
-fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
+fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = format!("ball-{}", i + 1);
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (end, (body, point)) in ends
@@ -331,7 +311,7 @@ fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
     put(&element, ends, JointType::Spherical, robot)
 }
 
-fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), RobotProblem> {
+fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = match item.get("id").and_then(Value::as_str) {
         Some(id) => id.to_owned(),
         None => format!("loop-{}", i + 1),

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::bad_value;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -52,8 +52,7 @@ impl<'a> Objects<'a> {
                 data: data.get(name).copied(),
             };
             if out.by_name.insert(name, out.list.len()).is_some() {
-                let element = e.label();
-                return Err(e.fail(Some("name"), RobotProblem::Duplicate { element }));
+                return Err(e.duplicate());
             }
             out.list.push(object);
         }
@@ -144,13 +143,9 @@ impl<'a> Object<'a> {
         // The scalar part stands last.
         let q = [number("Q3")?, number("Q0")?, number("Q1")?, number("Q2")?];
         if q.iter().map(|x| x * x).sum::<f64>() < 1e-6 {
-            let problem = RobotProblem::BadValue {
-                element: format!("object \"{}\"", self.name),
-                what: format!("{name} (Q0 to Q3)"),
-                found: "0 0 0 0".to_owned(),
-                want: "write a rotation, 0 0 0 1 for none".to_owned(),
-            };
-            return Err(e.fail(Some("Q0"), problem));
+            let (object, what) = (self.called(), format!("{name} (Q0 to Q3)"));
+            let want = "write a rotation, 0 0 0 1 for none";
+            return Err(e.fail(Some("Q0"), bad_value(&object, &what, "0 0 0 0", want)));
         }
         Ok(Some(RigidMotion::quaternion(translation, q)))
     }
@@ -174,17 +169,16 @@ impl<'a> Object<'a> {
         at.and_then(|i| words.get(i).copied())
             .map(Some)
             .ok_or_else(|| {
-                let problem = RobotProblem::BadValue {
-                    element: format!("object \"{}\"", self.name),
-                    what: name.to_owned(),
-                    found: found.to_owned(),
-                    want: format!(
-                        "write the place of a word of its list, from 0 to {}",
-                        words.len().saturating_sub(1)
-                    ),
-                };
+                let last = words.len().saturating_sub(1);
+                let want = format!("write the place of a word of its list, from 0 to {last}");
+                let problem = bad_value(&self.called(), name, found, &want);
                 index.fail(Some("value"), problem)
             })
+    }
+
+    /// How it is called in messages.
+    fn called(&self) -> String {
+        format!("object \"{}\"", self.name)
     }
 
     /// Whether a type of object has others in a group that moves as they do, each by itself.

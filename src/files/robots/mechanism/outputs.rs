@@ -1,9 +1,10 @@
 //! Which links are outputs where nobody says so: those that a user of the robot means.
 
 use crate::closure::tree::forest;
+use crate::file::problem::ProblemKind;
 use crate::robots::description::Robot;
 use crate::robots::mechanism::entries::Bodies;
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{known, unknown_name, whole};
 use crate::robots::warning::Options;
 use std::collections::BTreeSet;
 
@@ -33,17 +34,11 @@ const IDLE: [&str; 9] = [
     "link", "body", "frame", "left", "right", "l", "r", "front", "rear",
 ];
 
-pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, RobotProblem> {
-    robot
-        .links
-        .iter()
-        .position(|l| l == name)
-        .ok_or_else(|| RobotProblem::UnknownName {
-            element: "the command line".to_owned(),
-            what: "link",
-            name: name.to_owned(),
-            known: known("links", robot.links.iter().map(String::as_str)),
-        })
+pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
+    robot.links.iter().position(|l| l == name).ok_or_else(|| {
+        let known = known("links", &robot.links);
+        unknown_name("the command line", "link", name, &known)
+    })
 }
 
 /// Links by the place of the one that stands for each: those asked for, or end effectors by name, or the ends of chains that
@@ -54,16 +49,14 @@ pub(crate) fn of(
     joints: &[usize],
     frame: usize,
     options: &Options,
-) -> Result<Vec<usize>, RobotProblem> {
+) -> Result<Vec<usize>, ProblemKind> {
     let mut out = Vec::new();
     for name in &options.outputs {
         let b = bodies.of[link_of(robot, name)?];
         if b == frame {
-            return Err(RobotProblem::Whole {
-                message: format!(
-                    "link \"{name}\" is the frame or fixed to it; name a link that moves"
-                ),
-            });
+            return Err(whole(format!(
+                "link \"{name}\" is the frame or fixed to it; name a link that moves"
+            )));
         }
         out.push(b);
     }

@@ -4,7 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::bad_value;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -66,15 +66,9 @@ impl Compiler {
     /// The turn that one of the five ways stands for.
     pub(super) fn turned(&self, e: Element<'_>) -> Result<RigidMotion, ImportError> {
         let zero = |name: &str| {
-            e.fail(
-                Some(name),
-                RobotProblem::BadValue {
-                    element: e.label(),
-                    what: name.to_owned(),
-                    found: e.attribute(name).unwrap_or("").to_owned(),
-                    want: "give a direction or quaternion that is not zero".to_owned(),
-                },
-            )
+            let want = "give a direction or quaternion that is not zero";
+            let found = e.attribute(name).unwrap_or("");
+            e.fail(Some(name), bad_value(&e.label(), name, found, want))
         };
         let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
         let given: Vec<&str> = ways

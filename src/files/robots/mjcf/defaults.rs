@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{known, whole};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -28,16 +28,13 @@ impl<'a> Defaults<'a> {
             let class = match (d.attribute("class"), outer) {
                 (Some(c), _) => c,
                 (None, None) => "main",
-                (None, Some(_)) => {
-                    let what = "attribute class".to_owned();
-                    let element = d.label();
-                    return Err(d.fail(None, RobotProblem::Missing { element, what }));
-                }
+                (None, Some(_)) => return Err(d.missing("attribute class")),
             };
             let entry = classes.entry(class).or_insert((outer, Vec::new()));
             if entry.0 != outer {
-                let element = format!("default class \"{class}\"");
-                return Err(d.fail(Some("class"), RobotProblem::Duplicate { element }));
+                let message =
+                    format!("default class \"{class}\" is there twice; names must be unique");
+                return Err(d.fail(Some("class"), whole(message)));
             }
             entry.1.push(d);
             stack.extend(d.named("default").map(|inner| (inner, Some(class))));
@@ -57,15 +54,8 @@ impl<'a> Defaults<'a> {
         if let Some(c) = given
             && !self.classes.contains_key(c)
         {
-            return Err(e.fail(
-                Some("class"),
-                RobotProblem::UnknownName {
-                    element: e.label(),
-                    what: "default class",
-                    name: c.to_owned(),
-                    known: known("classes", self.classes.keys().copied()),
-                },
-            ));
+            let known = known("classes", self.classes.keys());
+            return Err(e.unknown_name("class", "default class", c, &known));
         }
         let mut places = vec![e];
         // A class is only ever within one that was read before, so that this ends; the bound is for repeated names.

@@ -7,7 +7,7 @@ use crate::robots::additions::same_link;
 use crate::robots::description::kinematics::displacement;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{bad_value, known};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -74,8 +74,8 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2]
         let site = |key: &'static str| {
             let name = e.required(key)?;
             context.sites.get(name).copied().ok_or_else(|| {
-                let known = known("sites", context.sites.keys().map(String::as_str));
-                unknown(e, key, "site", name, known)
+                let known = known("sites", context.sites.keys());
+                e.unknown_name(key, "site", name, &known)
             })
         };
         return Ok([site("site1")?, site("site2")?]);
@@ -87,8 +87,8 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2]
             e.required(key)?
         };
         robot.links.iter().position(|l| l == name).ok_or_else(|| {
-            let known = known("bodies", robot.links.iter().map(String::as_str));
-            unknown(e, key, "body", name, known)
+            let known = known("bodies", &robot.links);
+            e.unknown_name(key, "body", name, &known)
         })
     };
     let (one, two) = (body("body1")?, body("body2")?);
@@ -115,25 +115,6 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2]
     }
 }
 
-fn unknown(
-    e: Element<'_>,
-    key: &str,
-    what: &'static str,
-    name: &str,
-    known: String,
-) -> ImportError {
-    let (element, name) = (e.label(), name.to_owned());
-    e.fail(
-        Some(key),
-        RobotProblem::UnknownName {
-            element,
-            what,
-            name,
-            known,
-        },
-    )
-}
-
 fn closing(
     e: Element<'_>,
     id: &str,
@@ -158,8 +139,8 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     names.extend(e.attribute("joint2"));
     for (name, key) in names.iter().zip(["joint1", "joint2"]) {
         if !robot.joints.iter().any(|j| j.id == *name) {
-            let known = known("joints", robot.joints.iter().map(|j| j.id.as_str()));
-            return Err(unknown(e, key, "joint", name, known));
+            let known = known("joints", robot.joints.iter().map(|j| &j.id));
+            return Err(e.unknown_name(key, "joint", name, &known));
         }
     }
     let element = e.label();
@@ -254,7 +235,7 @@ fn length<'a>(
     let all: Vec<Element<'a>> = all.collect();
     let Some(tendon) = all.iter().find(|t| t.attribute("name") == Some(name)) else {
         let known = known("tendons", all.iter().filter_map(|t| t.attribute("name")));
-        return Err(unknown(e, key, "tendon", name, known));
+        return Err(e.unknown_name(key, "tendon", name, &known));
     };
     if tendon.name() != "fixed" {
         return Ok(None);
@@ -289,14 +270,10 @@ fn polynomial(e: Element<'_>) -> Result<[f64; 5], ImportError> {
             out[..read.len()].copy_from_slice(&read);
             Ok(out)
         }
-        _ => Err(e.fail(
-            Some("polycoef"),
-            RobotProblem::BadValue {
-                element: e.label(),
-                what: "polycoef".to_owned(),
-                found: text.to_owned(),
-                want: "give at most 5 finite numbers".to_owned(),
-            },
-        )),
+        _ => {
+            let want = "give at most 5 finite numbers";
+            let problem = bad_value(&e.label(), "polycoef", text, want);
+            Err(e.fail(Some("polycoef"), problem))
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Includes: the children of another file's root in place of an element.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::unsupported;
 use crate::robots::warning::Reader;
 use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 use std::path::{Component, Path};
@@ -79,48 +79,31 @@ fn included(
 ) -> Result<usize, ImportError> {
     let e = document.element(id);
     let file = e.required("file")?.to_owned();
-    let refuse = |e: Element<'_>, why: String, remedy: &str| {
+    let refuse = |e: Element<'_>, why: &str, remedy: &str| {
         let element = format!("<include file=\"{file}\">");
-        let remedy = remedy.to_owned();
-        e.fail(
-            Some("file"),
-            RobotProblem::Unsupported {
-                element,
-                why,
-                remedy,
-            },
-        )
+        e.fail(Some("file"), unsupported(&element, why, remedy))
     };
     if open.contains(&file) || open.first().is_some_and(|main| ends_with(main, &file)) {
-        return Err(refuse(
-            e,
-            "the file includes itself".to_owned(),
-            "remove one of the includes",
-        ));
+        let remedy = "remove one of the includes";
+        return Err(refuse(e, "the file includes itself", remedy));
     }
     if open.len() > LIMITS.0 || count > LIMITS.1 {
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
-        return Err(refuse(e, why, "put the files together"));
+        return Err(refuse(e, &why, "put the files together"));
     }
     if !files.reach(&file) {
-        let why = "it is outside the folder of the file".to_owned();
+        let why = "it is outside the folder of the file";
         let remedy = "copy it there, or name a folder that holds both with --models";
         return Err(refuse(e, why, remedy));
     }
-    let bytes = match (files.read)(&file) {
-        Ok(b) => b,
-        Err(error) => {
-            return Err(refuse(
-                e,
-                format!("it cannot be read ({error})"),
-                "put it beside the file",
-            ));
-        }
-    };
+    let bytes = (files.read)(&file).map_err(|error| {
+        let why = format!("it cannot be read ({error})");
+        refuse(e, &why, "put it beside the file")
+    })?;
     let total: usize = document.sources.iter().map(|s| s.text.len()).sum();
     if total + bytes.len() > MAX_BYTES {
         let why = format!("the files have more than {MAX_BYTES} bytes together");
-        return Err(refuse(e, why, "remove what is not kinematics"));
+        return Err(refuse(e, &why, "remove what is not kinematics"));
     }
     let text = xml::utf8(&file, &bytes)?;
     document.read(&file, text)

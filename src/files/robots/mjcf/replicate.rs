@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::mjcf::context::{Compiler, compiler};
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::too_many;
 use crate::robots::xml::{Document, MAX_ELEMENTS};
 
 /// Puts frames with copies in place of all `<replicate>` elements below `root`, those within others first.
@@ -40,10 +40,8 @@ fn copies(
     compiler: &Compiler,
 ) -> Result<Vec<usize>, ImportError> {
     let e = document.element(id);
-    let [count] = e.numbers::<1>("count")?.ok_or_else(|| {
-        let (element, what) = (e.label(), "attribute count".to_owned());
-        e.fail(None, RobotProblem::Missing { element, what })
-    })?;
+    let count = e.numbers::<1>("count")?;
+    let [count] = count.ok_or_else(|| e.missing("attribute count"))?;
     if !(1.0..=10_000.0).contains(&count) || count.fract() != 0.0 {
         let why = format!("count is {count}");
         return Err(e.unsupported(&why, "write a whole number from 1 to 10000"));
@@ -89,9 +87,8 @@ fn push(
 ) -> Result<usize, ImportError> {
     let id = document.nodes.len();
     if id >= MAX_ELEMENTS {
-        let (what, limit) = ("elements", MAX_ELEMENTS);
-        let e = document.element(at);
-        return Err(e.fail(None, RobotProblem::TooMany { what, limit }));
+        let problem = too_many("elements", MAX_ELEMENTS);
+        return Err(document.element(at).fail(None, problem));
     }
     document.nodes.push(node);
     Ok(id)

@@ -1,7 +1,7 @@
 //! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::unsupported;
 use crate::robots::warning::Reader;
 use crate::robots::xml::{self, Document, Element, MAX_BYTES};
 
@@ -77,8 +77,7 @@ fn included(
     let e = document.element(id);
     let uri = e.child("uri").map(|u| u.text().to_owned());
     let Some(uri) = uri.filter(|u| !u.is_empty()) else {
-        let (element, what) = (e.label(), "<uri>".to_owned());
-        return Err(e.fail(None, RobotProblem::Missing { element, what }));
+        return Err(e.missing("<uri>"));
     };
     may_be_included(e, &uri, open, count)?;
     let bytes = match read(&uri) {
@@ -113,13 +112,7 @@ fn included(
 
 fn refuse(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
     let element = format!("<include> of {uri}");
-    let (why, remedy) = (why.to_owned(), remedy.to_owned());
-    let problem = RobotProblem::Unsupported {
-        element,
-        why,
-        remedy,
-    };
-    e.fail(None, problem)
+    e.fail(None, unsupported(&element, why, remedy))
 }
 
 /// No file within itself, none too deep, not too many, and nothing that changes what is in the model.

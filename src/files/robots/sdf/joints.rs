@@ -6,7 +6,7 @@ use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::same_link;
 use crate::robots::description::{Part, Ratio, Robot, free};
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::bad_value;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;
 
@@ -24,29 +24,15 @@ pub(crate) fn axis(
     at: &RigidMotion,
 ) -> Result<Vector, ImportError> {
     let Some(a) = e.child(tag) else {
-        let what = format!("<{tag}>");
-        return Err(e.fail(
-            None,
-            RobotProblem::Missing {
-                element: e.label(),
-                what,
-            },
-        ));
+        return Err(e.missing(&format!("<{tag}>")));
     };
     let Some(xyz) = a.child("xyz") else {
         return Ok(at.direction(Z));
     };
     let v = xyz.text_numbers::<3>()?;
     if length(v) < 1e-9 {
-        return Err(xyz.fail(
-            None,
-            RobotProblem::BadValue {
-                element: e.label(),
-                what: tag.to_owned(),
-                found: xyz.text().to_owned(),
-                want: "give a direction such as 0 0 1".to_owned(),
-            },
-        ));
+        let want = "give a direction such as 0 0 1";
+        return Err(xyz.fail(None, bad_value(&e.label(), tag, xyz.text(), want)));
     }
     let in_model = a
         .child("use_parent_model_frame")
@@ -235,26 +221,13 @@ pub(crate) fn screw_pitch(e: Element<'_>) -> Result<f64, ImportError> {
         return Ok(p.text_numbers::<1>()?[0] / std::f64::consts::TAU);
     }
     let Some(p) = e.child("thread_pitch") else {
-        let what = "<screw_thread_pitch>".to_owned();
-        return Err(e.fail(
-            None,
-            RobotProblem::Missing {
-                element: e.label(),
-                what,
-            },
-        ));
+        return Err(e.missing("<screw_thread_pitch>"));
     };
     let [radians] = p.text_numbers::<1>()?;
     if radians.abs() < 1e-9 {
-        return Err(p.fail(
-            None,
-            RobotProblem::BadValue {
-                element: e.label(),
-                what: "<thread_pitch>".to_owned(),
-                found: p.text().to_owned(),
-                want: "give <screw_thread_pitch>, metres per turn".to_owned(),
-            },
-        ));
+        let want = "give <screw_thread_pitch>, metres per turn";
+        let problem = bad_value(&e.label(), "<thread_pitch>", p.text(), want);
+        return Err(p.fail(None, problem));
     }
     Ok(-1.0 / radians)
 }

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::problem::{RobotProblem, known};
+use crate::robots::problem::{known, unknown_name};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -86,26 +86,17 @@ pub(crate) fn insert<'a>(
     p.element
         .room("links, frames and joints", scene.placed.len())?;
     if name == "world" || scene.placed.contains_key(&name) {
-        let element = p.element.label();
-        return Err(p
-            .element
-            .fail(Some("name"), RobotProblem::Duplicate { element }));
+        return Err(p.element.duplicate());
     }
     scene.placed.insert(name, p);
     Ok(())
 }
 
 pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> ImportError {
-    let known = known("names", scene.placed.keys().map(String::as_str));
-    let (element, name) = (e.label(), name.to_owned());
+    let known = known("names", scene.placed.keys());
     e.fail(
         None,
-        RobotProblem::UnknownName {
-            element,
-            what: "link or frame",
-            name,
-            known,
-        },
+        unknown_name(&e.label(), "link or frame", name, &known),
     )
 }
 
@@ -199,14 +190,6 @@ pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Result<(Element<'a>, &'a str
         text => text,
     };
     let found = e.child(tag).map(|c| (c, name(c)));
-    found.filter(|(_, name)| !name.is_empty()).ok_or_else(|| {
-        let what = format!("<{tag}> with the name of a link");
-        e.fail(
-            None,
-            RobotProblem::Missing {
-                element: e.label(),
-                what,
-            },
-        )
-    })
+    let found = found.filter(|(_, name)| !name.is_empty());
+    found.ok_or_else(|| e.missing(&format!("<{tag}> with the name of a link")))
 }

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
-use crate::robots::problem::RobotProblem;
+use crate::robots::problem::bad_value;
 use crate::robots::xml::Element;
 
 /// Largest size of a number; the mechanism file takes lengths up to 1e12.
@@ -40,15 +40,8 @@ impl Element<'_> {
                 1 => "write one finite number up to 1e9 in size".to_owned(),
                 n => format!("write {n} finite numbers up to 1e9 in size, with spaces between"),
             };
-            self.fail(
-                Some(what),
-                RobotProblem::BadValue {
-                    element: self.label(),
-                    what: what.to_owned(),
-                    found: text.chars().take(60).collect(),
-                    want,
-                },
-            )
+            let found: String = text.chars().take(60).collect();
+            self.fail(Some(what), bad_value(&self.label(), what, &found, &want))
         };
         let mut out = [0.0; N];
         let mut words = text.split_whitespace();
