@@ -28,12 +28,7 @@ const MAX_LINKED: usize = 100;
 const UNKNOWN_ROWS: usize = 5;
 
 /// Properties that say that a joint has limits.
-const LIMITS: [&str; 4] = [
-    "EnableLengthMin",
-    "EnableLengthMax",
-    "EnableAngleMin",
-    "EnableAngleMax",
-];
+const LIMITS: &str = "EnableLengthMin EnableLengthMax EnableAngleMin EnableAngleMax";
 
 /// The robot that the assembly of a document is.
 ///
@@ -238,7 +233,7 @@ impl<'a> Assembling<'a, '_> {
             for doubt in doubts.chain(doubt.map(str::to_owned)) {
                 robot.report.assume(&format!("joint \"{id}\""), doubt);
             }
-            if LIMITS.iter().any(|l| joint.is_true(l) == Some(true)) {
+            if LIMITS.split(' ').any(|l| joint.is_true(l) == Some(true)) {
                 let element = format!("joint \"{id}\"");
                 robot.report.approximate(&element, NO_LIMITS);
             }

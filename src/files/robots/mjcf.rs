@@ -23,28 +23,11 @@ use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
 
 /// Sections that hold nothing together: what equalities take of them is looked up there.
-const SECTIONS: [&str; 11] = [
-    "asset",
-    "contact",
-    "custom",
-    "extension",
-    "keyframe",
-    "option",
-    "sensor",
-    "size",
-    "statistic",
-    "tendon",
-    "visual",
-];
+const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \
+    tendon visual";
 
 /// What a joint says of how it resists motion, which is no kinematics.
-const RESISTANCE: [&str; 5] = [
-    "damping",
-    "stiffness",
-    "springdamper",
-    "armature",
-    "frictionloss",
-];
+const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
 
 /// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.
 struct Waiting<'a> {
@@ -96,7 +79,7 @@ pub(crate) fn read(
                 let what = "deformable bodies are no links; left out";
                 robot.report.approximate(&section.label(), what);
             }
-            other if SECTIONS.contains(&other) => robot.report.drop(other, None),
+            other if SECTIONS.split(' ').any(|s| s == other) => robot.report.drop(other, None),
             _ => leave_out(section, None, &mut robot),
         }
     }
@@ -368,7 +351,7 @@ fn joint<'a>(
             part.limits = (low < high).then_some((low * unit - part.zero, high * unit - part.zero));
         }
     }
-    for key in RESISTANCE {
+    for key in RESISTANCE.split(' ') {
         if look.attribute(key).is_some() {
             robot.report.drop(key, Some(&id));
         }

@@ -5,17 +5,7 @@ use crate::file::schema::{JointEntry, MechanismFile};
 use serde_json::{Map, Value};
 
 /// The keys of a joint that a redesign may change.
-const KEYS: [&str; 9] = [
-    "links",
-    "type",
-    "freedoms",
-    "point",
-    "axis",
-    "reference",
-    "lead",
-    "pitch",
-    "drive",
-];
+const KEYS: &str = "links type freedoms point axis reference lead pitch drive";
 
 /// The changes that lead from a mechanism to a redesign of it: joints in their order, and what is added behind them. `own` is the
 /// file that is changed, whose joints may list options that the new ones have outgrown.
@@ -59,7 +49,7 @@ fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> 
     };
     let mut out = Vec::new();
     let [was, is] = [old, new].map(keys);
-    for key in KEYS {
+    for key in KEYS.split(' ') {
         let [was, is] = [&was, &is].map(|k| k.get(key).cloned().unwrap_or_default());
         if was != is {
             out.push(set(key, is));

@@ -95,22 +95,8 @@ fn value(key: &str, to: &Json) -> Result<Value, EditError> {
 
 /// Keys whose values are coordinates or quantities.
 fn is_of_numbers(key: &str) -> bool {
-    matches!(
-        key,
-        "point"
-            | "axis"
-            | "reference"
-            | "centre"
-            | "mass"
-            | "lead"
-            | "pitch"
-            | "ratio"
-            | "force"
-            | "moment"
-            | "gravity"
-            | "plane_normal"
-            | "tolerance"
-    )
+    let keys = "point axis reference centre mass lead pitch ratio force moment gravity plane_normal tolerance";
+    keys.split(' ').any(|k| k == key)
 }
 
 /// A number as it is typed.

@@ -6,28 +6,8 @@ use crate::model::rounded::{Largest, Sources};
 use crate::robots::xml::Element;
 
 /// Elements that place no joint, with all that is in them.
-const OTHERS: [&str; 20] = [
-    "visual",
-    "collision",
-    "inertial",
-    "inertia",
-    "geom",
-    "asset",
-    "camera",
-    "light",
-    "sensor",
-    "plugin",
-    "gazebo",
-    "transmission",
-    "actuator",
-    "contact",
-    "keyframe",
-    "limit",
-    "limits",
-    "dynamics",
-    "material",
-    "mimic",
-];
+const OTHERS: &str = "visual collision inertial inertia geom asset camera light sensor plugin \
+    gazebo transmission actuator contact keyframe limit limits dynamics material mimic";
 /// What is calculated in doubles is known no better, as a part of the size of the robot.
 const LEAST: f64 = 1e-12;
 /// Nor is a place said to be known worse than to this part of the size of the mechanism, and a direction to so many radians.
@@ -67,7 +47,7 @@ pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<Tol
     let mut unit = (root.name() == "mujoco").then(|| degrees.clone());
     let mut stack = vec![root];
     while let Some(e) = stack.pop() {
-        if OTHERS.contains(&e.name()) {
+        if OTHERS.split(' ').any(|o| o == e.name()) {
             continue;
         }
         if e.name() == "compiler" {

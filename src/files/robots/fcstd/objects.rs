@@ -201,18 +201,10 @@ impl<'a> Object<'a> {
 
     /// Whether it is a point, line, plane or frame without a body.
     pub(crate) fn is_datum(&self) -> bool {
-        const DATUMS: [&str; 9] = [
-            "App::Origin",
-            "App::Line",
-            "App::Plane",
-            "App::Point",
-            "App::LocalCoordinateSystem",
-            "Part::LocalCoordinateSystem",
-            "Part::Datum",
-            "PartDesign::Line",
-            "PartDesign::CoordinateSystem",
-        ];
-        DATUMS.iter().any(|d| self.kind.starts_with(d))
+        const DATUMS: &str = "App::Origin App::Line App::Plane App::Point \
+            App::LocalCoordinateSystem Part::LocalCoordinateSystem Part::Datum PartDesign::Line \
+            PartDesign::CoordinateSystem";
+        DATUMS.split(' ').any(|d| self.kind.starts_with(d))
             || ["PartDesign::Plane", "PartDesign::Point"].contains(&self.kind)
     }
 

@@ -9,30 +9,10 @@ use crate::robots::warning::Options;
 use std::collections::BTreeSet;
 
 /// Last words of the names of end effectors.
-const NAMES: [&str; 18] = [
-    "foot",
-    "feet",
-    "toe",
-    "hand",
-    "palm",
-    "tool",
-    "tool0",
-    "tcp",
-    "ee",
-    "eef",
-    "effector",
-    "flange",
-    "tip",
-    "fingertip",
-    "pad",
-    "platform",
-    "gripper",
-    "wheel",
-];
+const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flange tip \
+    fingertip pad platform gripper wheel";
 /// Words behind them that say nothing.
-const IDLE: [&str; 9] = [
-    "link", "body", "frame", "left", "right", "l", "r", "front", "rear",
-];
+const IDLE: &str = "link body frame left right l r front rear";
 
 pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
@@ -107,13 +87,18 @@ fn meant(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<
     last.filter(|&b| depth[b] == deepest).collect()
 }
 
+/// Whether a word is one of several with blanks between.
+fn is_among(words: &str, word: &str) -> bool {
+    words.split(' ').any(|w| w == word)
+}
+
 /// Whether a name ends like that of an end effector: "left-foot", "arm_tool0", "r_hand_link".
 fn is_effector(name: &str) -> bool {
     let lower = name.to_lowercase();
     let words = lower.split(|c: char| !c.is_alphanumeric());
     let words = words.filter(|w| !w.is_empty() && !w.bytes().all(|b| b.is_ascii_digit()));
-    let last = words.rev().find(|w| !IDLE.contains(w));
-    last.is_some_and(|w| NAMES.contains(&w))
+    let last = words.rev().find(|w| !is_among(IDLE, w));
+    last.is_some_and(|w| is_among(NAMES, w))
 }
 
 #[cfg(test)]
