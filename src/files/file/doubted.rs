@@ -3,13 +3,12 @@
 
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::file::warning::WarningKind;
+use crate::file::warning::{WarningKind, first_of};
 use crate::format::significant;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::rounded::ratio::{doubt, doubt_of};
-use itertools::Itertools;
 
 /// What is doubted of the couplings and screws of a mechanism.
 pub(super) fn doubted(
@@ -79,11 +78,7 @@ pub(crate) fn guessed(
     }
     let told = found.into_iter().map(|(path, option, guess, joints)| {
         let (what, along, key) = guess;
-        let more = match joints.len().saturating_sub(SHOWN) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let joints = format!("{}{more}", joints.iter().take(SHOWN).join(", "));
+        let joints = first_of(&joints, SHOWN);
         let kind = WarningKind::Guessed {
             option,
             what,

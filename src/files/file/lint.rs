@@ -9,7 +9,7 @@ use crate::file::read::workload::workload_tables;
 use crate::file::rounding;
 use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read, text_of};
-use crate::file::warning::{WarningKind, Warnings};
+use crate::file::warning::{WarningKind, Warnings, first_of};
 use crate::format::plain::turns;
 use crate::format::significant;
 use crate::geom::expr::Expr;
@@ -204,16 +204,10 @@ fn contours(m: &Mechanism, out: &mut Found) {
     } else {
         let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
         if let Some(&first) = open.first() {
-            let names = open.iter().take(SHOWN).map(|&j| m.joints[j].id.as_str());
-            let more = match open.len().saturating_sub(SHOWN) {
-                0 => String::new(),
-                n => format!(" and {n} more"),
-            };
-            let joints = format!("{}{more}", names.format(", "));
-            out.push((
-                index(&root("joint"), first.index()),
-                WarningKind::OpenChain { joints },
-            ));
+            let names = open.iter().map(|&j| m.joints[j].id.as_str()).collect_vec();
+            let joints = first_of(&names, SHOWN);
+            let at = index(&root("joint"), first.index());
+            out.push((at, WarningKind::OpenChain { joints }));
         }
     }
     let named = m.contours.iter();

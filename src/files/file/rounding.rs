@@ -1,6 +1,6 @@
 //! What rounded coordinates make doubtful in a file: what is meant, and which joints are all but special.
 
-use crate::file::warning::WarningKind;
+use crate::file::warning::{WarningKind, first_of};
 use crate::geom::expr::Expr;
 use crate::geom::vector::{across, length, real, sub, unit};
 use crate::model::joint_type::JointType;
@@ -10,7 +10,6 @@ use crate::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation}
 use crate::rank::rounded::nearly_special::{nearly_special, reach};
 use crate::rank::rounded::size;
 use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
-use itertools::Itertools;
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
 const NEARLY: f64 = 1e-4;
@@ -39,11 +38,7 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     out.extend(by_default(m));
     let all = nearly(m);
     if !all.is_empty() {
-        let more = match all.len().saturating_sub(TOLD) {
-            0 => String::new(),
-            n => format!(" and {n} more"),
-        };
-        let what = format!("{}{more}", all.iter().take(TOLD).join(", "));
+        let what = first_of(&all, TOLD);
         out.push(WarningKind::NearlySpecial { what });
     }
     out
@@ -79,14 +74,10 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
     } else {
         return None;
     };
-    let ids = all.iter().map(|(_, j)| j.id.as_str()).take(TOLD).join(", ");
-    let more = match all.len().saturating_sub(TOLD) {
-        0 => String::new(),
-        n => format!(" and {n} more"),
-    };
+    let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();
     let [x, y, z] = towards.map(|c| format!("{c:.6}"));
     Some(WarningKind::DefaultReference {
-        joints: format!("{ids}{more}"),
+        joints: first_of(&ids, TOLD),
         first: first.id.clone(),
         reference: format!("[{x}, {y}, {z}]"),
     })

@@ -83,7 +83,7 @@ pub struct MechanismFile {
 }
 
 /// A rigid body.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LinkEntry {
     /// Name, unique among links.
@@ -99,7 +99,7 @@ pub struct LinkEntry {
 }
 
 /// A joint between two links.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointEntry {
     /// Name, unique among joints.

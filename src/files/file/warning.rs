@@ -5,6 +5,7 @@ use crate::file::problem::render;
 use crate::file::text::is_json;
 use annotate_snippets::Level;
 use itertools::Itertools;
+use std::fmt::Display;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -171,6 +172,15 @@ pub enum WarningKind {
         stated: i64,
         found: i64,
     },
+}
+
+/// The first few of a list in words, and how many more there are.
+pub(super) fn first_of(all: &[impl Display], most: usize) -> String {
+    let more = match all.len().saturating_sub(most) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    format!("{}{more}", all.iter().take(most).join(", "))
 }
 
 /// A warning and where it stands.

@@ -16,10 +16,10 @@ use crate::model::claim::Claim;
 use crate::model::joint_type::{Coupling, Freedom, JointType};
 use crate::model::loads::{ExternalForce, ExternalMoment, Face, Inertia, Misalignment, Stiffness};
 use crate::model::mechanism::{
-    Expected, Frame, Joint, JointId, JointOption, Mechanism, Mode, Role, StateId,
+    Expected, Frame, Joint, JointId, JointOption, Link, Mechanism, Mode, PointOfInterest, Role,
+    StateId,
 };
 use serde::ser::Error;
-use std::collections::BTreeMap;
 use toml_edit::{DocumentMut, Item};
 
 /// Columns of a comment, without its mark.
@@ -34,6 +34,22 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         Mode::Spatial => (None, None),
         Mode::Planar { normal } => (Some("planar".to_owned()), Some(direction(normal))),
     };
+    let link = |l: &Link| {
+        let mass = l.mass.as_ref();
+        LinkEntry {
+            id: l.id.clone(),
+            role: role(l.role).map(ToOwned::to_owned),
+            mass: mass.map(|p| p.mass),
+            centre: mass.map(|p| vector(&p.centre)),
+            inertia: mass.and_then(|p| p.inertia).map(inertia),
+        }
+    };
+    let point = |p: &PointOfInterest| PointEntry {
+        id: p.id.clone(),
+        link: m.links[p.link].id.clone(),
+        point: vector(&p.point),
+        tolerance: number::point_tolerance(&p.point, stated.as_ref()),
+    };
     MechanismFile {
         name: m.name.clone(),
         description: m.description.clone(),
@@ -42,19 +58,8 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
         length_unit: Some(m.length_unit.symbol.to_owned()),
         mode,
         plane_normal,
-        parameter: BTreeMap::new(),
         tolerance: stated.clone(),
-        link: m
-            .links
-            .iter()
-            .map(|l| LinkEntry {
-                id: l.id.clone(),
-                role: role(l.role).map(ToOwned::to_owned),
-                mass: l.mass.as_ref().map(|p| p.mass),
-                centre: l.mass.as_ref().map(|p| vector(&p.centre)),
-                inertia: l.mass.as_ref().and_then(|p| p.inertia).map(inertia),
-            })
-            .collect(),
+        link: m.links.iter().map(link).collect(),
         joint: m
             .joints
             .iter()
@@ -66,22 +71,14 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
             .iter()
             .map(|c| ContourEntry { joints: ids(c) })
             .collect(),
-        point: m
-            .points
-            .iter()
-            .map(|p| PointEntry {
-                id: p.id.clone(),
-                link: m.links[p.link].id.clone(),
-                point: vector(&p.point),
-                tolerance: number::point_tolerance(&p.point, stated.as_ref()),
-            })
-            .collect(),
+        point: m.points.iter().map(point).collect(),
         search: search(m),
         workload: workload(m),
         ranking: m.ranking.as_ref().map(|r| workload::ranking(m, r)),
         joint_types: workload::joint_types(m),
         expected: m.expected.iter().map(expected).collect(),
         claim: m.claims.iter().map(claim).collect(),
+        ..MechanismFile::default()
     }
 }
 
@@ -218,7 +215,6 @@ fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntr
         point: vector(&j.frame.point),
         axis: Some(direction(&j.frame.axis)),
         reference: (!is_default(&j.frame)).then(|| direction(&j.frame.reference)),
-        lead: None,
         pitch: screws(&j.joint_type).then(|| coordinate(&j.frame.pitch)),
         tolerance: number::point_tolerance(&j.frame.point, stated),
         drive: match j.drive_freedom {
@@ -227,8 +223,8 @@ fn joint(m: &Mechanism, j: &Joint, stated: Option<&ToleranceEntry>) -> JointEntr
         },
         state: states(m, j.states.as_ref()),
         options,
-        forbid: Vec::new(),
         unloading,
+        ..JointEntry::default()
     }
 }
 
@@ -258,12 +254,12 @@ fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
         axis: turned.then(|| direction(&f.axis)),
         reference: (turned || !same(&f.reference, &present.reference))
             .then(|| direction(&f.reference)),
-        lead: None,
         pitch: (screws(&o.joint_type) && f.pitch.to_string() != present.pitch.to_string())
             .then(|| coordinate(&f.pitch)),
         name: Some(o.name.clone()).filter(|n| n != o.joint_type.name()),
         cost: o.cost_milli.map(cost),
         state: o.state.map(|s| m.states[s].clone()),
+        ..OptionTable::default()
     };
     let plain = table.freedoms.is_none()
         && table.point.is_none()
@@ -280,39 +276,24 @@ fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
 
 fn search(m: &Mechanism) -> SearchEntry {
     let spec = &m.search;
-    let mut costs: BTreeMap<String, f64> = BTreeMap::new();
-    costs.extend(
-        spec.costs
-            .by_type_milli
-            .iter()
-            .map(|(n, c)| (n.clone(), cost(*c))),
-    );
-    costs.extend(
-        spec.costs
-            .change_milli
-            .map(|c| ("change".to_owned(), cost(c))),
-    );
-    let driven = spec.costs.driven_milli;
-    costs.extend(driven.map(|c| ("driven".to_owned(), cost(c))));
-    costs.extend(spec.costs.link_milli.map(|c| ("link".to_owned(), cost(c))));
-    costs.extend(
-        spec.costs
-            .harmful_milli
-            .map(|c| ("harmful".to_owned(), cost(c))),
-    );
+    let costs = &spec.costs;
+    let others = [
+        ("change", costs.change_milli),
+        ("driven", costs.driven_milli),
+        ("link", costs.link_milli),
+        ("harmful", costs.harmful_milli),
+    ];
+    let others = others
+        .into_iter()
+        .filter_map(|(n, c)| Some((n.to_owned(), c?)));
+    let costs = costs.by_type_milli.iter().cloned().chain(others);
+    let id = |j: JointId| m.joints[j].id.clone();
+    let groups = spec.turn.iter().map(|g| g.iter().map(|&j| id(j)).collect());
     SearchEntry {
         hold: spec.hold.iter().map(|&l| m.links[l].id.clone()).collect(),
-        mirror: spec
-            .mirror
-            .iter()
-            .map(|&(a, b)| [a, b].map(|j| m.joints[j].id.clone()))
-            .collect(),
-        turn: spec
-            .turn
-            .iter()
-            .map(|g| g.iter().map(|&j| m.joints[j].id.clone()).collect())
-            .collect(),
-        costs,
+        mirror: spec.mirror.iter().map(|&(a, b)| [id(a), id(b)]).collect(),
+        turn: groups.collect(),
+        costs: costs.map(|(n, c)| (n, cost(c))).collect(),
         ..SearchEntry::default()
     }
 }

@@ -31,7 +31,6 @@ fn said<'a>(e: Element<'a>, tag: &str) -> Option<&'a str> {
 
 /// Couples two joints, the leader first, as an element says, unless another element has said the same.
 pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut Robot) {
-    let element = e.label();
     let same = |c: &Ratio| {
         let [a, b] = c.joints.each_ref().map(String::as_str);
         (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
@@ -43,14 +42,7 @@ pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut 
         return;
     }
     robot.report.map("coupling of a plugin or controller");
-    robot.couplings.push(Ratio {
-        joints: joints.map(str::to_owned),
-        ratio,
-        element,
-        said_by: e.id,
-        gear: false,
-        higher: [0.0; 3],
-    });
+    robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
 /// Reads a plugin: one that makes a joint follow another couples them, one that joins links until it is told to let go welds them.
@@ -171,15 +163,10 @@ pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSe
     out
 }
 
-/// The problem of a joint or constraint of a link with itself.
-pub(crate) fn same_link(e: Element<'_>) -> ImportError {
-    e.unsupported("it connects a link to itself", "name two different links")
-}
-
 /// Drake's ball constraint: a point of one body held to a point of another.
 pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
-    let (mut links, mut sides) = ([0; 2], [RigidMotion::IDENTITY; 2]);
-    for (i, (body, point)) in [("A", "p_AP"), ("B", "p_BQ")].into_iter().enumerate() {
+    let mut ends = [(0, RigidMotion::IDENTITY); 2];
+    for (end, (body, point)) in ends.iter_mut().zip([("A", "p_AP"), ("B", "p_BQ")]) {
         let part = |k: &str| {
             let tag = format!("drake:ball_constraint_{k}");
             let found = e.child(&tag);
@@ -196,15 +183,10 @@ pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), I
             Some(v) => v,
             None => p.text_numbers()?,
         };
-        links[i] = link;
-        sides[i] = frame.then(&RigidMotion::shift(at));
+        *end = (link, frame.then(&RigidMotion::shift(at)));
     }
-    if links[0] == links[1] {
-        return Err(same_link(e));
-    }
-    let id = format!("ball-{}-{}", robot.links[links[0]], robot.links[links[1]]);
-    let mut part = Part::new(&id, links, sides, JointType::Spherical).said_by(e);
-    part.closes = true;
+    let [a, b] = ends.map(|end| &robot.links[end.0]);
+    let part = Part::closing(e, &format!("ball-{a}-{b}"), ends, JointType::Spherical)?;
     robot.report.map("ball constraint");
     robot.joints.push(part);
     Ok(())

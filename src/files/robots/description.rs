@@ -10,6 +10,7 @@ pub(in crate::robots) mod massless;
 pub(in crate::robots) mod origin;
 pub(in crate::robots) mod physical;
 
+use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
@@ -91,6 +92,27 @@ impl Part {
         }
     }
 
+    /// A joint that closes a loop between a place on one link and a place on another, as an element says.
+    ///
+    /// # Errors
+    /// Where both are one link.
+    pub(crate) fn closing(
+        e: Element<'_>,
+        id: &str,
+        ends: [(usize, RigidMotion); 2],
+        joint_type: JointType,
+    ) -> Result<Part, ImportError> {
+        let links = ends.map(|end| end.0);
+        if links[0] == links[1] {
+            return Err(same_link(e));
+        }
+        let part = Part::new(id, links, ends.map(|end| end.1), joint_type);
+        Ok(Part {
+            closes: true,
+            ..part.said_by(e)
+        })
+    }
+
     /// The joint as an element says.
     pub(crate) fn said_by(mut self, e: Element<'_>) -> Part {
         self.element = Some(e.id);
@@ -112,6 +134,11 @@ impl Part {
             Freedom::Ry | Freedom::Ty => cross(self.axis, self.second),
         }
     }
+}
+
+/// The problem of a joint or constraint of a link with itself.
+pub(crate) fn same_link(e: Element<'_>) -> ImportError {
+    e.unsupported("it connects a link to itself", "name two different links")
 }
 
 /// A joint of all six freedoms.
@@ -138,6 +165,18 @@ pub(crate) struct Ratio {
 }
 
 impl Ratio {
+    /// A ratio of the joints that lead and follow, as an element says.
+    pub(crate) fn new(joints: [&str; 2], ratio: f64, e: Element<'_>) -> Ratio {
+        Ratio {
+            joints: joints.map(str::to_owned),
+            ratio,
+            higher: [0.0; 3],
+            element: e.label(),
+            said_by: e.id,
+            gear: false,
+        }
+    }
+
     /// The rate where the leader has a value: the derivative of the polynomial.
     pub(in crate::robots) fn at(&self, value: f64) -> f64 {
         let [two, three, four] = self.higher;

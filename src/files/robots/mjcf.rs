@@ -37,6 +37,29 @@ struct Waiting<'a> {
     class: Option<&'a str>,
 }
 
+impl<'a> Waiting<'a> {
+    /// The world, which is the first link.
+    fn world(element: Element<'a>) -> Waiting<'a> {
+        Waiting {
+            element,
+            link: 0,
+            place: RigidMotion::IDENTITY,
+            class: element.attribute("childclass"),
+        }
+    }
+
+    /// What is within, held by a link at a place there.
+    fn within(&self, element: Element<'a>, link: usize, place: RigidMotion) -> Waiting<'a> {
+        let class = element.attribute("childclass").or(self.class);
+        Waiting {
+            element,
+            link,
+            place,
+            class,
+        }
+    }
+}
+
 /// Reads a `<mujoco>` and the files it includes.
 pub(crate) fn read(
     document: &mut Document,
@@ -58,13 +81,7 @@ pub(crate) fn read(
     robot.world = Some(world);
     for w in root.named("worldbody") {
         robot.said_by(world, w);
-        let start = Waiting {
-            element: w,
-            link: world,
-            place: RigidMotion::IDENTITY,
-            class: w.attribute("childclass"),
-        };
-        bodies(start, &mut context, &mut robot)?;
+        bodies(Waiting::world(w), &mut context, &mut robot)?;
     }
     for section in root.children() {
         match section.name() {
@@ -133,12 +150,7 @@ fn bodies<'a>(
     while let Some(w) = stack.pop() {
         let mut here = Vec::new();
         for e in w.element.children() {
-            let inner = |link, place| Waiting {
-                element: e,
-                link,
-                place,
-                class: e.attribute("childclass").or(w.class),
-            };
+            let inner = |link, place| w.within(e, link, place);
             match e.name() {
                 "body" => {
                     let place = w.place.then(&context.compiler.place(e)?);

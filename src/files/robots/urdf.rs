@@ -8,8 +8,8 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::{ball_constraint, couple, leave_out, named, same_link};
-use crate::robots::description::{Part, Ratio, Robot, free};
+use crate::robots::additions::{ball_constraint, couple, leave_out, named};
+use crate::robots::description::{Part, Ratio, Robot, free, same_link};
 use crate::robots::problem::{bad_value, known, unknown_name};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
@@ -169,8 +169,8 @@ fn constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             robot.links[links[0]], robot.links[links[1]]
         ),
     };
-    let mut part = Part::new(&id, links, sides, joint_type).said_by(e);
-    part.closes = true;
+    let ends = [(links[0], sides[0]), (links[1], sides[1])];
+    let part = Part::closing(e, &id, ends, joint_type)?;
     robot.report.map("constraint");
     robot.joints.push(part);
     Ok(())
@@ -280,12 +280,8 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         m.numbers::<1>("offset")?;
         part.comment = Some(format!("mimics {leader} times {ratio}"));
         robot.couplings.push(Ratio {
-            joints: [leader.to_owned(), name.to_owned()],
-            ratio,
-            element: e.label(),
             said_by: m.id,
-            gear: false,
-            higher: [0.0; 3],
+            ..Ratio::new([leader, name], ratio, e)
         });
     }
     robot.joints.push(part);
@@ -318,19 +314,13 @@ fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
         return Err(e.missing(what));
     };
     let links = [named_link(e, first, robot)?, named_link(e, second, robot)?];
-    if links[0] == links[1] {
-        return Err(same_link(e));
-    }
-    let sides = [place(first)?, place(second)?];
+    let ends = [(links[0], place(first)?), (links[1], place(second)?)];
     let word = e.required("type")?;
     let joint_type = closing_type(word).ok_or_else(|| {
         let known = "revolute, continuous, prismatic, cylindrical, spherical, fixed";
         e.unknown_word("type", word, known)
     })?;
-    let mut part = Part::new(name, links, sides, joint_type)
-        .about(axis(e)?)
-        .said_by(e);
-    part.closes = true;
+    let part = Part::closing(e, name, ends, joint_type)?.about(axis(e)?);
     robot.report.map("loop_joint");
     robot.joints.push(part);
     Ok(())

@@ -1,16 +1,13 @@
 //! Couplings of joints from their entries.
 
-use crate::closure::coupling::{coefficient, in_plane, length_ratio};
-use crate::closure::twist::{MotionSpace, joint_twists};
+use crate::closure::coupling::{coefficient, in_plane};
 use crate::file::problem::ProblemKind;
+use crate::file::read::resolve::contains_rates;
 use crate::file::schema::MechanismFile;
 use crate::file::{Findings, Place};
-use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
-use crate::geom::expr::Expr;
-use crate::linalg::echelon::Echelon;
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
-use crate::model::mechanism::{Frame, JointId, JointOption, Mechanism};
+use crate::model::mechanism::{JointId, JointOption, Mechanism};
 use itertools::Itertools;
 
 /// Reads the couplings, and takes from coupled joints the options that cannot be coupled alike.
@@ -157,41 +154,4 @@ pub fn keeps_coupled(option: &JointOption, present: &JointOption, coupled: &[Fre
     let has =
         |f: &Freedom| option.joint_type.freedoms().contains(f) && definite(&option.joint_type, *f);
     coupled.iter().all(has) && contains_rates(option, present, coupled).unwrap_or(false)
-}
-
-/// Twists with the rates of the coupled freedoms behind them: those of the option span those of the present joint.
-fn contains_rates(
-    option: &JointOption,
-    present: &JointOption,
-    coupled: &[Freedom],
-) -> Option<bool> {
-    let length = |frame: &Frame, f: Freedom| length_ratio((frame, f), (&present.frame, f));
-    let coordinates = |f: &Frame| {
-        let all = f.point.iter().chain(&f.axis).chain(&f.reference);
-        all.chain([&f.pitch]).cloned().collect_vec()
-    };
-    let mut all: Vec<Expr> = coordinates(&option.frame);
-    all.extend(coordinates(&present.frame));
-    all.extend(coupled.iter().map(|&f| length(&option.frame, f)));
-    let exact = ExactField::for_expressions(&all, 0).ok()?;
-    let rows = |o: &JointOption| {
-        let twists = joint_twists(&exact, &MotionSpace::Spatial, &o.frame, &o.joint_type).ok()?;
-        let row = |(f, mut t): (Freedom, Vec<_>)| {
-            for &c in coupled {
-                let rate = if c == f {
-                    length(&o.frame, f)
-                } else {
-                    Expr::from(0)
-                };
-                t.push(Scalars::eval(&exact, &rate).ok()?);
-            }
-            Some(t)
-        };
-        twists.into_iter().map(row).collect::<Option<Vec<_>>>()
-    };
-    let mut span = Echelon::new(exact.field());
-    rows(option)?.iter().for_each(|t| {
-        span.insert(t);
-    });
-    Some(rows(present)?.iter().all(|t| span.contains(t)))
 }

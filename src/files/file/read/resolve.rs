@@ -1,19 +1,21 @@
 //! Joint frames and options from their entries.
 
+use crate::closure::coupling::length_ratio;
+use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::file::Place;
 use crate::file::problem::ProblemKind;
 use crate::file::schema::{OptionEntry, OptionTable};
+use crate::geom::Scalars;
+use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
+use crate::geom::vector::real;
+use crate::linalg::echelon::Echelon;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointOption, StateId};
 use itertools::Itertools;
 
 pub(crate) fn zero3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)
-}
-
-fn real(v: &[Expr; 3]) -> [f64; 3] {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
 }
 
 fn is_zero(v: &[Expr; 3]) -> bool {
@@ -216,9 +218,6 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
 /// Whether one joint allows every motion of another at the same place: exactly, over a prime field; `None` where the
 /// geometry has no image there.
 pub fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
-    use crate::closure::twist::{MotionSpace, joint_twists};
-    use crate::geom::exact::ExactField;
-    use crate::linalg::echelon::Echelon;
     if wide.joint_type == narrow.joint_type && wide.joint_type == JointType::Spherical {
         return Some(true);
     }
@@ -226,23 +225,42 @@ pub fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
     if wide.frame.is_same(&narrow.frame) && freedoms[1].iter().all(|f| freedoms[0].contains(f)) {
         return Some(true);
     }
-    let parts = |o: &JointOption| {
-        let f = &o.frame;
-        f.point
-            .iter()
-            .chain(&f.axis)
-            .chain(&f.reference)
-            .chain([&f.pitch])
-            .cloned()
-            .collect_vec()
+    contains_rates(wide, narrow, &[])
+}
+
+/// Twists with the rates of the coupled freedoms behind them: those of the option span those of the present joint.
+pub(crate) fn contains_rates(
+    option: &JointOption,
+    present: &JointOption,
+    coupled: &[Freedom],
+) -> Option<bool> {
+    let length = |frame: &Frame, f: Freedom| length_ratio((frame, f), (&present.frame, f));
+    let coordinates = |f: &Frame| {
+        let all = f.point.iter().chain(&f.axis).chain(&f.reference);
+        all.chain([&f.pitch]).cloned().collect_vec()
     };
-    let all = parts(wide).into_iter().chain(parts(narrow)).collect_vec();
+    let mut all: Vec<Expr> = coordinates(&option.frame);
+    all.extend(coordinates(&present.frame));
+    all.extend(coupled.iter().map(|&f| length(&option.frame, f)));
     let exact = ExactField::for_expressions(&all, 0).ok()?;
-    let twists =
-        |o: &JointOption| joint_twists(&exact, &MotionSpace::Spatial, &o.frame, &o.joint_type).ok();
+    let rows = |o: &JointOption| {
+        let twists = joint_twists(&exact, &MotionSpace::Spatial, &o.frame, &o.joint_type).ok()?;
+        let row = |(f, mut t): (Freedom, Vec<_>)| {
+            for &c in coupled {
+                let rate = if c == f {
+                    length(&o.frame, f)
+                } else {
+                    Expr::from(0)
+                };
+                t.push(Scalars::eval(&exact, &rate).ok()?);
+            }
+            Some(t)
+        };
+        twists.into_iter().map(row).collect::<Option<Vec<_>>>()
+    };
     let mut span = Echelon::new(exact.field());
-    twists(wide)?.iter().for_each(|(_, t)| {
+    rows(option)?.iter().for_each(|t| {
         span.insert(t);
     });
-    Some(twists(narrow)?.iter().all(|(_, t)| span.contains(t)))
+    Some(rows(present)?.iter().all(|t| span.contains(t)))
 }

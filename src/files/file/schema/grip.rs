@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A gripper of two mirrored levers with V-prisms, for `ozols grip`. Lengths in the file's unit; angles in degrees, or as
 /// "120deg", "2.1rad", "2*pi/3". Axes: x along the gripper's axis of symmetry from the pivots to the part, y across from the lower to the upper lever, z
 /// along the part.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GripEntry {
     /// L, from the pivot to the vertex of the prism.

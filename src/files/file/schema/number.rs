@@ -18,6 +18,12 @@ pub enum Coordinate {
     Expression(String),
 }
 
+impl Default for Coordinate {
+    fn default() -> Coordinate {
+        Coordinate::Integer(0)
+    }
+}
+
 /// A number, or a number with a unit in quotes: "360deg", "60rpm".
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(

@@ -126,7 +126,7 @@ pub enum InertiaEntry {
 
 /// Two discs on a torsion bar, for `ozols drive`. Lengths in the file's unit; angles in degrees, or as "120deg", "2.1rad",
 /// "pi/2"; all else in SI units.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DriveEntry {
     /// 2 φ0, from one latched position to the next.

@@ -31,19 +31,8 @@ pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
         face_length: spec.face_length.map(length),
         lever_width: Some(length(spec.lever_width)),
         levers_cross: spec.may_cross,
-        mass: None,
-        density: None,
-        part_length: None,
-        centre_of_mass: None,
-        gravity: None,
-        accelerations: Vec::new(),
-        any_acceleration: None,
-        friction: None,
-        safety: None,
-        levers: None,
-        drive_arm: None,
-        lever_joints: None,
         contacts: spec.contacts.map(|c| c.map(|j| m.joints[j].id.clone())),
+        ..GripEntry::default()
     };
     match spec.transmission {
         Transmission::Unknown => {}
@@ -103,11 +92,8 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
     let mut entry = DriveEntry {
         swing_angle: angle(2.0 * spec.twist),
         period: Some(plain(spec.period)),
-        swing_time: None,
         // The whole, of which a payload beside it is a part.
         inertia: Some(plain(first)),
-        disc_inertia: None,
-        disc_link: None,
         // A payload of no mass tells a radius alone.
         payload_mass: spec.payload.filter(|p| p.mass > 0.0).map(|p| plain(p.mass)),
         payload_radius: spec.payload.map(|p| length(p.radius)),
@@ -129,10 +115,7 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
         feed_from,
         feed_moments,
         latch_capture: Some(angle(spec.capture)),
-        motion: None,
-        swings: None,
-        dwell: None,
-        programme: None,
+        ..DriveEntry::default()
     };
     programme(&mut entry, &spec.programme);
     entry

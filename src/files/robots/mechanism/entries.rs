@@ -174,9 +174,7 @@ fn links(
         links.push(LinkEntry {
             id,
             role: role.map(str::to_owned),
-            mass: None,
-            centre: None,
-            inertia: None,
+            ..LinkEntry::default()
         });
     }
     (links, ids)
@@ -239,13 +237,8 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
             .filter(|_| universal)
             .or_else(|| second().filter(|_| p.joint_type.has_second_axis()))
             .map(|x| direction(x).map(number)),
-        lead: None,
         pitch: screws.then(|| number(p.pitch)),
-        tolerance: None,
         drive: DriveWord::Driven(p.drive),
-        state: None,
-        options: None,
-        forbid: Vec::new(),
-        unloading: None,
+        ..JointEntry::default()
     }
 }

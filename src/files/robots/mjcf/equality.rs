@@ -3,7 +3,6 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
-use crate::robots::additions::same_link;
 use crate::robots::description::kinematics::displacement;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
@@ -122,12 +121,7 @@ fn closing(
     joint_type: JointType,
     robot: &mut Robot,
 ) -> Result<(), ImportError> {
-    let links = ends.map(|x| x.0);
-    if links[0] == links[1] {
-        return Err(same_link(e));
-    }
-    let mut part = Part::new(id, links, ends.map(|x| x.1), joint_type).said_by(e);
-    part.closes = true;
+    let mut part = Part::closing(e, id, ends, joint_type)?;
     part.comment = Some(format!("closes a loop: <{}>", e.name()));
     robot.report.map(e.name());
     robot.joints.push(part);
@@ -143,7 +137,6 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
             return Err(e.unknown_name(key, "joint", name, &known));
         }
     }
-    let element = e.label();
     let [a, b] = names[..] else {
         let [value, ..] = polynomial(e)?;
         hold(e, names[0], value, robot);
@@ -151,18 +144,15 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
     };
     // Value of joint 1 less its reference, as a polynomial of that of joint 2 less its own.
     let [_, ratio, higher @ ..] = polynomial(e)?;
-    if higher != [0.0; 3] {
-        comment(a, &format!("coupled to {b} by a polynomial"), robot);
+    let how = if higher == [0.0; 3] {
+        format!("times {ratio}")
     } else {
-        comment(a, &format!("coupled to {b} times {ratio}"), robot);
-    }
+        "by a polynomial".to_owned()
+    };
+    comment(a, &format!("coupled to {b} {how}"), robot);
     robot.couplings.push(Ratio {
-        joints: [b.to_owned(), a.to_owned()],
-        ratio,
-        element,
-        said_by: e.id,
-        gear: false,
         higher,
+        ..Ratio::new([b, a], ratio, e)
     });
     Ok(())
 }
@@ -205,14 +195,7 @@ fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Result<(), I
         [(joint, c)] => hold(e, joint, value / c, robot),
         [(a, c), (b, d)] if higher == [0.0; 3] => {
             comment(b, &format!("coupled to {a} by a tendon"), robot);
-            robot.couplings.push(Ratio {
-                joints: [a.to_owned(), b.to_owned()],
-                ratio: -c / d,
-                element: e.label(),
-                said_by: e.id,
-                gear: false,
-                higher: [0.0; 3],
-            });
+            robot.couplings.push(Ratio::new([a, b], -c / d, e));
         }
         _ => {
             let what = "an equality of tendons that ties more than two joints, or is a polynomial (1 row), is left out";

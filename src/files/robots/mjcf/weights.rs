@@ -8,20 +8,13 @@ pub(super) use weight::Weight;
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::description::Robot;
+use crate::robots::mjcf::Waiting;
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::xml::Element;
 use shape::weight_of_shape;
 use std::collections::BTreeMap;
 use weight::{Settings, together};
-
-/// A body or frame still to be read: its link, its place there, and the class of what is in it.
-struct Waiting<'a> {
-    element: Element<'a>,
-    link: usize,
-    place: RigidMotion,
-    class: Option<&'a str>,
-}
 
 /// Returns what the links weigh, in their frames; the robot is that of the same document.
 pub(super) fn read(
@@ -32,21 +25,10 @@ pub(super) fn read(
     let settings = Settings::read(root)?;
     let mut stated = BTreeMap::new();
     let mut of_shapes: BTreeMap<usize, Vec<Weight>> = BTreeMap::new();
-    let world = |element| Waiting {
-        element,
-        link: 0,
-        place: RigidMotion::IDENTITY,
-        class: element.attribute("childclass"),
-    };
-    let mut stack: Vec<Waiting<'_>> = root.named("worldbody").map(world).collect();
+    let mut stack: Vec<Waiting<'_>> = root.named("worldbody").map(Waiting::world).collect();
     while let Some(at) = stack.pop() {
         for e in at.element.children() {
-            let inner = |link, place| Waiting {
-                element: e,
-                link,
-                place,
-                class: e.attribute("childclass").or(at.class),
-            };
+            let inner = |link, place| at.within(e, link, place);
             match e.name() {
                 "body" => {
                     if let Some(&link) = robot.said.get(&e.id) {

@@ -39,15 +39,11 @@ pub(crate) fn gearbox(
         return Ok(());
     };
     let id = |j: usize| robot.joints[j].id.clone();
-    let joints = [id(leader), id(follower)];
-    robot.joints[follower].comment = Some(format!("geared to {}", joints[0]));
+    let [leads, follows] = [id(leader), id(follower)];
+    robot.joints[follower].comment = Some(format!("geared to {leads}"));
     robot.couplings.push(Ratio {
-        joints,
-        ratio: -times * first * second,
-        element: e.label(),
-        said_by: e.id,
         gear: true,
-        higher: [0.0; 3],
+        ..Ratio::new([&leads, &follows], -times * first * second, e)
     });
     robot.report.map("gearbox");
     Ok(())

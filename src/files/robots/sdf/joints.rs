@@ -4,8 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::same_link;
-use crate::robots::description::{Part, Ratio, Robot, free};
+use crate::robots::description::{Part, Ratio, Robot, free, same_link};
 use crate::robots::problem::bad_value;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;
@@ -174,12 +173,8 @@ fn mimic(
         None => m.numbers::<1>("multiplier")?.map_or(1.0, |[x]| x),
     };
     robot.couplings.push(Ratio {
-        joints: [leader.clone(), name.to_owned()],
-        ratio,
-        element: e.label(),
         said_by: m.id,
-        gear: false,
-        higher: [0.0; 3],
+        ..Ratio::new([&leader, name], ratio, e)
     });
     Ok(Some(leader))
 }
@@ -269,13 +264,8 @@ pub(crate) fn weld(
         let (link, world) = located(c, &absolute(scope, name), scene)?;
         *x = (link, robot.places[link].inverse().then(&world));
     }
-    if ends[0].0 == ends[1].0 {
-        return Err(same_link(e));
-    }
     let id = format!("weld-{}-{}", end(e, "parent")?.1, end(e, "child")?.1);
-    let mut part =
-        Part::new(&id, ends.map(|x| x.0), ends.map(|x| x.1), JointType::Fixed).said_by(e);
-    part.closes = true;
+    let mut part = Part::closing(e, &id, ends, JointType::Fixed)?;
     part.comment = Some("closes a loop: <drake:weld_constraint>".to_owned());
     robot.report.map("weld constraint");
     robot.joints.push(part);

@@ -11,20 +11,6 @@ use std::f64::consts::PI;
 /// kg/m³ where nothing is said.
 const WATER: f64 = 1000.0;
 
-/// A shape that weighs something. Lengths are in metres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Solid {
-    /// Whole edges.
-    Box(Vector),
-    Sphere(f64),
-    /// Radius, and whole length along z.
-    Cylinder(f64, f64),
-    /// Radius, and length along z without the round ends.
-    Capsule(f64, f64),
-    /// Half axes.
-    Ellipsoid(Vector),
-}
-
 /// Returns the numbers of `size`; 0 where there are fewer than three.
 fn sizes(look: &Lookup<'_>) -> Result<[f64; 3], ImportError> {
     let Some((e, text)) = look.attribute("size") else {
@@ -80,30 +66,6 @@ impl Measures {
     }
 }
 
-/// Returns the solid of a shape; none of a plane, which has no end, nor of a mesh or another kind, whose file is not read.
-fn solid(look: &Lookup<'_>, measures: &Measures) -> Option<Solid> {
-    let word = match look.attribute("type") {
-        Some((_, word)) => word,
-        None if look.attribute("mesh").is_some() => "mesh",
-        None => "sphere",
-    };
-    let &Measures {
-        sizes: [first, ..],
-        half,
-        deep,
-        long,
-        ..
-    } = measures;
-    match word {
-        "sphere" => Some(Solid::Sphere(first)),
-        "capsule" => Some(Solid::Capsule(first, 2.0 * half)),
-        "cylinder" => Some(Solid::Cylinder(first, 2.0 * half)),
-        "ellipsoid" => Some(Solid::Ellipsoid([first, deep, long])),
-        "box" => Some(Solid::Box([2.0 * first, 2.0 * deep, 2.0 * long])),
-        _ => None,
-    }
-}
-
 /// Returns what a shape weighs on its body or frame, where it weighs something.
 pub(super) fn weight_of_shape(
     look: &Lookup<'_>,
@@ -116,17 +78,22 @@ pub(super) fn weight_of_shape(
     if group < settings.groups[0] || group > settings.groups[1] {
         return Ok(None);
     }
-    let filled_evenly = |solid| {
-        let (volume, [x, y, z]) = filled(solid);
-        let mass = stated.unwrap_or(density * volume);
-        Weight {
-            mass,
-            place: measures.place,
-            tensor: [x * mass, y * mass, z * mass, 0.0, 0.0, 0.0],
-        }
+    let kind = match look.attribute("type") {
+        Some((_, word)) => word,
+        None if look.attribute("mesh").is_some() => "mesh",
+        None => "sphere",
     };
-    let weight = solid(look, &measures).map(filled_evenly);
-    Ok(weight.filter(|w| w.mass > 0.0))
+    let Some((volume, moments)) = filled(kind, &measures) else {
+        return Ok(None);
+    };
+    let mass = stated.unwrap_or(density * volume);
+    let [x, y, z] = moments.map(|m| m * mass);
+    let weight = Weight {
+        mass,
+        place: measures.place,
+        tensor: [x, y, z, 0.0, 0.0, 0.0],
+    };
+    Ok(Some(weight).filter(|w| w.mass > 0.0))
 }
 
 /// Returns the turn that one of the five ways stands for, of the element or of its class.
@@ -138,37 +105,33 @@ fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Result<RigidMotion, Im
     }
 }
 
-/// Returns the volume in m³, and the moments of inertia about x, y and z of a solid of 1 kg.
-fn filled(solid: Solid) -> (f64, Vector) {
-    let round = |r: f64, l: f64| {
-        let (across, along) = ((3.0 * r * r + l * l) / 12.0, r * r / 2.0);
-        [across, across, along]
+/// Returns the volume in m³, and the moments of inertia about x, y and z of 1 kg of a shape that is filled evenly; none of a plane, which
+/// has no end, nor of a mesh or another kind, whose file is not read.
+fn filled(kind: &str, measures: &Measures) -> Option<(f64, Vector)> {
+    let &Measures { deep, long, .. } = measures;
+    let (r, l) = (measures.sizes[0], 2.0 * measures.half);
+    // Of a cylinder, across it and along.
+    let (across, along) = ((3.0 * r * r + l * l) / 12.0, r * r / 2.0);
+    let (ball, middle) = (4.0 / 3.0 * PI * r.powi(3), PI * r * r * l);
+    let block = |share: f64| {
+        let [a, b, c] = [r * r, deep * deep, long * long];
+        [b + c, a + c, a + b].map(|sum| sum * share)
     };
-    match solid {
-        Solid::Box([x, y, z]) => {
-            let pair = |a: f64, b: f64| (a * a + b * b) / 12.0;
-            (x * y * z, [pair(y, z), pair(x, z), pair(x, y)])
-        }
-        Solid::Sphere(r) => (4.0 / 3.0 * PI * r.powi(3), [0.4 * r * r; 3]),
-        Solid::Cylinder(r, l) => (PI * r * r * l, round(r, l)),
-        Solid::Capsule(r, l) => {
-            let (ends, middle) = (4.0 / 3.0 * PI * r.powi(3), PI * r * r * l);
-            let whole = ends + middle;
-            let (e, m) = (ends / whole, middle / whole);
-            let [across, _, along] = round(r, l);
+    Some(match kind {
+        "box" => (8.0 * r * deep * long, block(1.0 / 3.0)),
+        "ellipsoid" => (4.0 / 3.0 * PI * r * deep * long, block(0.2)),
+        "sphere" => (ball, [0.4 * r * r; 3]),
+        "cylinder" => (middle, [across, across, along]),
+        "capsule" => {
+            let whole = ball + middle;
+            let (e, m) = (ball / whole, middle / whole);
             // Half balls, each about the end of the cylinder.
             let far = 0.4 * r * r + l * l / 4.0 + 3.0 * l * r / 8.0;
             let across = m * across + e * far;
             (whole, [across, across, m * along + e * 0.4 * r * r])
         }
-        Solid::Ellipsoid([a, b, c]) => {
-            let pair = |a: f64, b: f64| (a * a + b * b) / 5.0;
-            (
-                4.0 / 3.0 * PI * a * b * c,
-                [pair(b, c), pair(a, c), pair(a, b)],
-            )
-        }
-    }
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
@@ -200,39 +163,47 @@ mod tests {
     #[test]
     fn solids_weigh_what_small_cubes_do() {
         let (r, l) = (0.4, 0.9);
-        for (solid, inside) in [
+        let round = |kind: &'static str, r, l: f64| (kind, [r, 0.0, 0.0], l / 2.0);
+        for ((kind, sizes, half), inside) in [
             (
-                Solid::Box([0.8, 1.2, 1.6]),
+                ("box", [0.4, 0.6, 0.8], 0.0),
                 Box::new(|[x, y, z]: Vector| x.abs() < 0.4 && y.abs() < 0.6 && z.abs() < 0.8)
                     as Box<dyn Fn(Vector) -> bool>,
             ),
-            (Solid::Sphere(0.7), Box::new(|p| dot(p, p) < 0.49)),
+            (round("sphere", 0.7, 0.0), Box::new(|p| dot(p, p) < 0.49)),
             (
-                Solid::Cylinder(r, l),
+                round("cylinder", r, l),
                 Box::new(move |[x, y, z]| x * x + y * y < r * r && z.abs() < l / 2.0),
             ),
             (
-                Solid::Capsule(r, l),
+                round("capsule", r, l),
                 Box::new(move |[x, y, z]| {
                     let past = (z.abs() - l / 2.0).max(0.0);
                     x * x + y * y + past * past < r * r
                 }),
             ),
             (
-                Solid::Ellipsoid([0.5, 0.7, 0.9]),
+                ("ellipsoid", [0.5, 0.7, 0.9], 0.0),
                 Box::new(|[x, y, z]| {
                     (x / 0.5).powi(2) + (y / 0.7).powi(2) + (z / 0.9).powi(2) < 1.0
                 }),
             ),
         ] {
-            let (volume, moments) = filled(solid);
+            let measures = Measures {
+                sizes,
+                half,
+                deep: sizes[1],
+                long: sizes[2],
+                place: RigidMotion::IDENTITY,
+            };
+            let (volume, moments) = filled(kind, &measures).unwrap();
             let (slow, added) = added_up(inside);
             assert!(
                 (volume / slow - 1.0).abs() < 0.02,
-                "{solid:?}: {volume} {slow}"
+                "{kind}: {volume} {slow}"
             );
             for (m, a) in moments.iter().zip(added) {
-                assert!((m / a - 1.0).abs() < 0.03, "{solid:?}: {m} {a}");
+                assert!((m / a - 1.0).abs() < 0.03, "{kind}: {m} {a}");
             }
         }
     }
