@@ -145,23 +145,27 @@ impl Document {
     /// Reads a file into the arena; gives its root element.
     pub(crate) fn read(&mut self, name: &str, text: String) -> Result<usize, ImportError> {
         let source = self.sources.len();
-        let read = parse(&text, source, &mut self.nodes);
-        match read {
-            Ok(root) => {
-                self.sources.push(Source {
-                    name: name.to_owned(),
-                    text,
-                });
-                Ok(root)
-            }
-            Err((problem, at)) => {
-                let mut at = at.min(text.len());
-                while !text.is_char_boundary(at) {
-                    at -= 1;
-                }
-                Err(problem.at(name, &text, Some(at..at)))
-            }
+        let root = parse(&text, source, &mut self.nodes).map_err(|(problem, at)| {
+            let at = (0..=at.min(text.len()))
+                .rev()
+                .find(|&i| text.is_char_boundary(i));
+            let at = at.unwrap_or(0);
+            problem.at(name, &text, Some(at..at))
+        })?;
+        let name = name.to_owned();
+        self.sources.push(Source { name, text });
+        Ok(root)
+    }
+
+    /// Says why so many bytes more are too many.
+    pub(super) fn has_room(&self, bytes: usize) -> Result<(), String> {
+        let total: usize = self.sources.iter().map(|s| s.text.len()).sum();
+        if total + bytes > MAX_BYTES {
+            return Err(format!(
+                "the files have more than {MAX_BYTES} bytes together"
+            ));
         }
+        Ok(())
     }
 
     pub(crate) fn element(&self, id: usize) -> Element<'_> {

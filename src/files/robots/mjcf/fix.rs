@@ -230,6 +230,12 @@ impl<'a> MjcfFile<'a> {
         all.rev().find(|p| p.element == Some(element))
     }
 
+    /// The first element of a tag that has a name; any where none is asked for.
+    fn named(&self, tag: &str, name: Option<&str>) -> Option<Element<'a>> {
+        let mut all = (0..self.parents.len()).map(|id| self.origin.element(id));
+        all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
+    }
+
     /// A body in between: it moves on the first body, and is held in its place.
     fn at_body(
         &mut self,
@@ -239,19 +245,13 @@ impl<'a> MjcfFile<'a> {
         edits: &mut Edits<'_>,
     ) -> Result<(), ImportError> {
         let (robot, one) = (&self.origin.robot, part.links[0]);
-        let name = &robot.links[one];
-        let is_world = robot.world == Some(one);
-        let named = |b: &Element<'a>| {
-            if is_world {
-                b.name() == "worldbody"
-            } else {
-                b.name() == "body" && b.attribute("name") == Some(name)
-            }
+        let body = if robot.world == Some(one) {
+            self.named("worldbody", None)
+        } else {
+            self.named("body", Some(&robot.links[one]))
         };
-        let all = (0..self.origin.document.nodes.len()).map(|id| self.origin.element(id));
-        let Some(body) = all.into_iter().find(named) else {
-            return Err(e.unsupported("its first body has no name", "give it one"));
-        };
+        let body =
+            body.ok_or_else(|| e.unsupported("its first body has no name", "give it one"))?;
         let frame = self.origin.places[one];
         let point = frame.then(&part.sides[0]).translation;
         let between = edits.name(&format!("{}_between", part.id));
@@ -273,11 +273,9 @@ impl<'a> MjcfFile<'a> {
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
     ) -> Result<(), ImportError> {
-        let named = |s: &Element<'a>| s.name() == "site" && s.attribute("name") == Some(site);
-        let mut all = (0..self.origin.document.nodes.len()).map(|id| self.origin.element(id));
-        let Some(found) = all.find(named) else {
-            return Err(e.unsupported("its first site has no element", "choose another (--at)"));
-        };
+        let found = self.named("site", Some(site)).ok_or_else(|| {
+            e.unsupported("its first site has no element", "choose another (--at)")
+        })?;
         let around = self.parent(found);
         let root = self.origin.element(self.origin.root);
         let own = compiler(root)?.place(found)?;

@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::robots::problem::unsupported;
 use crate::robots::warning::Reader;
-use crate::robots::xml::{self, Document, Element, MAX_BYTES};
+use crate::robots::xml::{self, Document, Element};
 use std::path::{Component, Path};
 
 /// Deepest nesting of files, and most includes in all.
@@ -100,13 +100,10 @@ fn included(
         let why = format!("it cannot be read ({error})");
         refuse(e, &why, "put it beside the file")
     })?;
-    let total: usize = document.sources.iter().map(|s| s.text.len()).sum();
-    if total + bytes.len() > MAX_BYTES {
-        let why = format!("the files have more than {MAX_BYTES} bytes together");
+    if let Err(why) = document.has_room(bytes.len()) {
         return Err(refuse(e, &why, "remove what is not kinematics"));
     }
-    let text = xml::utf8(&file, &bytes)?;
-    document.read(&file, text)
+    document.read(&file, xml::utf8(&file, &bytes)?)
 }
 
 /// Whether a path's last part is this file.

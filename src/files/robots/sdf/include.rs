@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::robots::problem::unsupported;
 use crate::robots::warning::Reader;
-use crate::robots::xml::{self, Document, Element, MAX_BYTES};
+use crate::robots::xml::{self, Document, Element};
 
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);
@@ -89,13 +89,10 @@ fn included(
             return Err(refuse(e, &uri, &why, remedy));
         }
     };
-    let total: usize = document.sources.iter().map(|s| s.text.len()).sum();
-    if total + bytes.len() > MAX_BYTES {
-        let why = format!("the files have more than {MAX_BYTES} bytes together");
+    if let Err(why) = document.has_room(bytes.len()) {
         return Err(refuse(e, &uri, &why, "remove what is not kinematics"));
     }
-    let text = xml::utf8(&uri, &bytes)?;
-    let inner = document.read(&uri, text)?;
+    let inner = document.read(&uri, xml::utf8(&uri, &bytes)?)?;
     let found = document.element(inner);
     old.push(is_old(found));
     let models: Vec<usize> = found.named("model").map(|m| m.id).collect();

@@ -10,39 +10,10 @@ const MOST: usize = 100_000;
 /// The columns: the first three are needed, the three of gravity go together.
 const COLUMNS: [&str; 8] = ["ax", "ay", "az", "gx", "gy", "gz", "time", "diameter"];
 
-/// Why a table is no motion.
+/// Why a table is no motion: the file, its line where there is one, and what is wrong.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum TrajectoryError {
-    /// The first line.
-    #[error(
-        "{file}:1: {what}; columns are ax, ay, az in m/s², and if wanted gx, gy, gz in m/s², time in s, diameter"
-    )]
-    Head {
-        /// The file.
-        file: String,
-        /// What is wrong.
-        what: String,
-    },
-    /// A line.
-    #[error("{file}:{line}: {what}")]
-    Line {
-        /// The file.
-        file: String,
-        /// From 1.
-        line: usize,
-        /// What is wrong.
-        what: String,
-    },
-    /// No step or too many.
-    #[error("{file}: {count} steps; give 1 to {MOST}")]
-    Count {
-        /// The file.
-        file: String,
-        /// How many.
-        count: usize,
-    },
-}
+#[error("{0}")]
+pub struct TrajectoryError(String);
 
 /// Where the figures of a step stand.
 struct StepColumns {
@@ -125,38 +96,31 @@ pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
         .from_reader(bytes);
-    let head = |what: String| TrajectoryError::Head {
-        file: file.to_owned(),
-        what,
+    let at = |line: usize, what: String| TrajectoryError(format!("{file}:{line}: {what}"));
+    let head = |what: String| {
+        at(
+            1,
+            format!(
+                "{what}; columns are ax, ay, az in m/s², and if wanted gx, gy, gz in m/s², time in s, diameter"
+            ),
+        )
     };
     let names = reader.headers().map_err(|e| head(e.to_string()))?.clone();
     let columns = StepColumns::of(&names).map_err(head)?;
     let mut out = Vec::new();
     for (i, record) in reader.records().enumerate() {
-        let at = |line: usize, what: String| TrajectoryError::Line {
-            file: file.to_owned(),
-            line,
-            what,
-        };
         let record = record.map_err(|e| at(i + 2, e.to_string()))?;
         let line = record
             .position()
-            .map_or(i + 2, |p| usize::try_from(p.line()).unwrap_or(i + 2));
-        let figures = Figures {
-            names: &names,
-            record: &record,
-        };
-        out.push(
-            figures
-                .step(&columns, unit)
-                .map_err(|what| at(line, what))?,
-        );
+            .and_then(|p| usize::try_from(p.line()).ok());
+        let (names, record) = (&names, &record);
+        let step = Figures { names, record }.step(&columns, unit);
+        out.push(step.map_err(|what| at(line.unwrap_or(i + 2), what))?);
     }
-    if !(1..=MOST).contains(&out.len()) {
-        return Err(TrajectoryError::Count {
-            file: file.to_owned(),
-            count: out.len(),
-        });
+    match out.len() {
+        1..=MOST => Ok(out),
+        count => Err(TrajectoryError(format!(
+            "{file}: {count} steps; give 1 to {MOST}"
+        ))),
     }
-    Ok(out)
 }
