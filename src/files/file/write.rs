@@ -10,6 +10,7 @@ use crate::file::schema::{
     OptionEntry, OptionTable, PointEntry, Quantities, Quantity, SearchEntry, StiffnessEntry,
     StrokeEntry, ToleranceEntry, Unloading, Words, WorkloadEntry,
 };
+pub(crate) use crate::file::write::number::plain;
 use crate::file::write::number::{component, coordinate, ratio};
 use crate::geom::expr::Expr;
 use crate::model::claim::Claim;

@@ -45,6 +45,13 @@ pub(crate) struct Connection {
     pub(crate) element: usize,
 }
 
+impl Connection {
+    /// How it is called in messages.
+    fn label(&self) -> String {
+        format!("joint \"{}\"", self.id)
+    }
+}
+
 /// Parts and joints; part 0 is what stands still.
 #[derive(Debug, Clone)]
 pub(crate) struct Assembly {
@@ -125,9 +132,7 @@ impl Assembly {
     fn tie(&self, c: &Connection, links: [usize; 2], options: &Options, robot: &mut Robot) {
         if links[0] == links[1] {
             let what = "both ends are on one part, which holds all of it; left out";
-            robot
-                .report
-                .approximate(&format!("joint \"{}\"", c.id), what);
+            robot.report.approximate(&c.label(), what);
             return;
         }
         let m = match meeting(c.holds, &c.frames[0], &c.frames[1]) {
@@ -147,7 +152,7 @@ impl Assembly {
 
     /// Says where frames do not meet, and what is right at this pose only.
     fn tell(&self, c: &Connection, part: &Part, m: &Meeting, options: &Options, robot: &mut Robot) {
-        let element = format!("joint \"{}\"", c.id);
+        let element = c.label();
         if let Some(apart) = part.misfit.filter(|a| self.is_open(*a)) {
             let apart = words(apart, self.unit);
             if options.assemble {
@@ -228,7 +233,7 @@ fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
         Err(why) => return left_out(c, why, robot),
     };
     robot.report.map(c.holds.word());
-    let element = format!("joint \"{}\"", c.id);
+    let element = c.label();
     let said = (element.as_str(), c.element);
     if let Some(found) = coupling(&m, links, &robot.joints, &robot.places, said) {
         robot.couplings.push(found);
@@ -247,7 +252,7 @@ fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
 
 fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
     let what = format!("{} is left out: {why}", c.holds.word());
-    let element = format!("joint \"{}\"", c.id);
+    let element = c.label();
     robot.report.leave_out_joint(&element, c.holds.rows(), what);
 }
 

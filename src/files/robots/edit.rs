@@ -4,6 +4,7 @@ use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
+use crate::robots::mechanism::series_of_single_joints::unique;
 use crate::robots::problem::whole;
 use crate::robots::xml::Element;
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,13 +40,8 @@ impl<'a> Edits<'a> {
 
     /// A name that no element has.
     pub(crate) fn name(&mut self, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut n = 2;
-        while !self.names.insert(name.clone()) {
-            name = format!("{wanted}_{n}");
-            n += 1;
-        }
-        name
+        let nth = |n| format!("{wanted}_{n}");
+        unique(&mut self.names, wanted.to_owned(), nth)
     }
 
     fn text(&self, e: Element<'_>) -> &'a str {

@@ -217,9 +217,9 @@ impl<'a> Assembling<'a, '_> {
             } else {
                 format!("{label} ({})", joint.name)
             };
+            let element = format!("joint \"{id}\"");
             let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
                 let what = format!("left out: it is of the type {word}, which is not known");
-                let element = format!("joint \"{id}\"");
                 robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 continue;
             };
@@ -231,10 +231,9 @@ impl<'a> Assembling<'a, '_> {
             } = found;
             let doubts = ends.iter().filter_map(|e| e.doubt.clone());
             for doubt in doubts.chain(doubt.map(str::to_owned)) {
-                robot.report.assume(&format!("joint \"{id}\""), doubt);
+                robot.report.assume(&element, doubt);
             }
             if LIMITS.split(' ').any(|l| joint.is_true(l) == Some(true)) {
-                let element = format!("joint \"{id}\"");
                 robot.report.approximate(&element, NO_LIMITS);
             }
             let [a, b] = [of(&ends[0]), of(&ends[1])];

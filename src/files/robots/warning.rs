@@ -1,6 +1,7 @@
 //! What is asked of an import, and what it mapped, approximated and dropped.
 
 use crate::format::plural;
+use itertools::Itertools;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -180,13 +181,9 @@ impl Report {
             plural(links, "link"),
             plural(joints, "joint")
         );
-        let mapped = self
-            .mapped
-            .iter()
-            .map(|(k, n)| format!("{n} {k}"))
-            .collect::<Vec<_>>();
-        if !mapped.is_empty() {
-            line(&mut out, "mapped", &mapped.join(", "));
+        let mapped = self.mapped.iter().map(|(k, n)| format!("{n} {k}"));
+        if !self.mapped.is_empty() {
+            line(&mut out, "mapped", &mapped.format(", ").to_string());
         }
         for p in &self.pose {
             line(&mut out, "pose", p);
@@ -216,12 +213,7 @@ impl Report {
         } else {
             " (end effectors, ends of chains, a floating base; --working-link to choose)"
         };
-        let shown = names
-            .iter()
-            .take(8)
-            .map(String::as_str)
-            .collect::<Vec<_>>()
-            .join(", ");
+        let shown = names.iter().take(8).format(", ");
         let more = match names.len() {
             n @ 9.. => format!(" and {} more", n - 8),
             _ => String::new(),
@@ -236,11 +228,7 @@ impl Report {
         let mut out = String::new();
         if self.coupling_rows > 0 {
             let n = self.coupling_rows;
-            let (rows, them) = if n == 1 {
-                ("row", "it")
-            } else {
-                ("rows", "them")
-            };
+            let [rows, them] = [["rows", "them"], ["row", "it"]][usize::from(n == 1)];
             let what = format!(
                 "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
             );
@@ -255,11 +243,8 @@ impl Report {
             line(&mut out, "left out", &what);
         }
         for n in &self.approximated {
-            line(
-                &mut out,
-                "approximated",
-                &format!("{}: {}", n.element, n.what),
-            );
+            let what = format!("{}: {}", n.element, n.what);
+            line(&mut out, "approximated", &what);
         }
         out
     }

@@ -126,7 +126,7 @@ pub(crate) fn angle(radians: f64) -> Coordinate {
 }
 
 /// A number as people write it.
-fn plain(x: f64) -> Coordinate {
+pub(crate) fn plain(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and within 2^53")]
     if x.fract() == 0.0 && x.abs() < 2f64.powi(53) {
         return Coordinate::Integer(x as i64);

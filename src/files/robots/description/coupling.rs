@@ -36,44 +36,45 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
             .each_ref()
             .map(|id| robot.joints.iter().position(|j| j.id == *id));
         let (leader, follower) = (&coupling.joints[0], &coupling.joints[1]);
+        let one = |j: usize| {
+            let freedoms = robot.joints[j].joint_type.freedoms();
+            matches!(freedoms, [Freedom::Rz | Freedom::Tz | Freedom::Screw])
+        };
         let why = match found {
-            [Some(a), Some(b)] if a == b => "a joint follows itself".to_owned(),
-            [Some(a), Some(b)] => {
-                let one = |j: usize| {
-                    let freedoms = robot.joints[j].joint_type.freedoms();
-                    matches!(freedoms, [Freedom::Rz | Freedom::Tz | Freedom::Screw])
-                };
-                let value = robot.joints[a].values.first().copied().unwrap_or(0.0);
-                let ratio = coupling.at(value);
-                let twice = out.iter().any(|u| u.ends == [a, b] || u.ends == [b, a]);
-                match [a, b].into_iter().find(|j| !written.contains(j)) {
-                    Some(j) => format!("joint {} is within a rigid body", robot.joints[j].id),
-                    None if !one(a) || !one(b) => {
-                        "only joints of one freedom are coupled".to_owned()
-                    }
-                    None if twice => "the two are coupled already".to_owned(),
-                    None if ratio == 0.0 => {
-                        format!("times 0, so that {follower} would stand still")
-                    }
-                    None => {
-                        if coupling.higher != [0.0; 3] {
-                            let what = format!(
-                                "{follower} is a polynomial of {leader}; here it follows {ratio} times as fast, the derivative at this pose"
-                            );
-                            robot.report.approximate(&coupling.element, what);
-                        }
-                        out.push(Usable {
-                            ends: [a, b],
-                            ratio,
-                            said_by: coupling.said_by,
-                            gear: coupling.gear,
-                        });
-                        continue;
-                    }
-                }
-            }
             [None, _] => format!("there is no joint {leader}"),
             [_, None] => format!("there is no joint {follower}"),
+            [Some(a), Some(b)] => {
+                let ends = [a, b];
+                let value = robot.joints[a].values.first().copied().unwrap_or(0.0);
+                let ratio = coupling.at(value);
+                let within = ends.into_iter().find(|j| !written.contains(j));
+                if a == b {
+                    "a joint follows itself".to_owned()
+                } else if let Some(j) = within {
+                    format!("joint {} is within a rigid body", robot.joints[j].id)
+                } else if !one(a) || !one(b) {
+                    "only joints of one freedom are coupled".to_owned()
+                } else if out.iter().any(|u| u.ends == ends || u.ends == [b, a]) {
+                    "the two are coupled already".to_owned()
+                } else if ratio == 0.0 {
+                    format!("times 0, so that {follower} would stand still")
+                } else {
+                    if coupling.higher != [0.0; 3] {
+                        let what = format!(
+                            "{follower} is a polynomial of {leader}; here it follows {ratio} times as fast, the derivative at this pose"
+                        );
+                        robot.report.approximate(&coupling.element, what);
+                    }
+                    let (said_by, gear) = (coupling.said_by, coupling.gear);
+                    out.push(Usable {
+                        ends,
+                        ratio,
+                        said_by,
+                        gear,
+                    });
+                    continue;
+                }
+            }
         };
         let what = format!("the coupling of {follower} to {leader} (1 row) is left out: {why}");
         robot.report.leave_out_coupling(&coupling.element, what);

@@ -4,13 +4,14 @@ use crate::file::schema::{
     Coordinate, CouplingEntry, DriveWord, JointEntry, LinkEntry, MechanismFile, OptionEntry,
     SearchEntry,
 };
-use crate::file::write::Comment;
+use crate::file::write::{Comment, plain};
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, length};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::description::{Part, Robot};
+use crate::robots::mechanism::series_of_single_joints::unique;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name in a mechanism file, in characters.
@@ -53,14 +54,10 @@ impl Names {
         } else {
             plain
         };
-        let mut name = plain.clone();
-        let mut n = 2;
-        while !self.used.insert(name.clone()) {
+        unique(&mut self.used, plain.clone(), |n| {
             let end = format!("~{n}");
-            name = plain.chars().take(LONGEST - end.len()).collect::<String>() + &end;
-            n += 1;
-        }
-        name
+            plain.chars().take(LONGEST - end.len()).collect::<String>() + &end
+        })
     }
 }
 
@@ -183,13 +180,7 @@ fn links(
 /// A number as it is written: rounding errors around multiples of 1e-9 are taken off.
 fn number(x: f64) -> Coordinate {
     let r = (x * 1e9).round() / 1e9;
-    let x = if (r - x).abs() < 1e-12 { r } else { x };
-    #[allow(clippy::cast_possible_truncation, reason = "whole and small")]
-    if x == x.trunc() && x.abs() < 1e15 {
-        Coordinate::Integer(x as i64)
-    } else {
-        Coordinate::Decimal(x)
-    }
+    plain(if (r - x).abs() < 1e-12 { r } else { x })
 }
 
 /// A direction as written: of its own length unless that is extreme.

@@ -77,14 +77,22 @@ pub(crate) struct Names {
 impl Names {
     pub(crate) fn fit(&mut self, wanted: &str) -> String {
         let plain = wanted.replace("::", ":");
-        let mut name = plain.clone();
-        let mut n = 2;
-        while !self.used.insert(name.clone()) {
-            name = format!("{plain}~{n}");
-            n += 1;
-        }
-        name
+        unique(&mut self.used, plain.clone(), |n| format!("{plain}~{n}"))
     }
+}
+
+/// A name that is not used yet: the first, or the n-th from 2 on. It is used from now on.
+pub(crate) fn unique(
+    used: &mut BTreeSet<String>,
+    first: String,
+    nth: impl Fn(usize) -> String,
+) -> String {
+    let (mut name, mut n) = (first, 2);
+    while !used.insert(name.clone()) {
+        name = nth(n);
+        n += 1;
+    }
+    name
 }
 
 /// Text for an attribute or element.
