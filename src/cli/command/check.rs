@@ -89,24 +89,14 @@ fn figures(e: &Expected, found: &StateAnalysis) -> [StatedFigure; 6] {
     // A range is at odds with a figure only outside it.
     let finite = e.finite_mobility.filter(|&w| found.finite.could_be(w));
     let external = found.external.map(|x| x.by_rank);
+    let finite = finite.or(int(found.finite.mobility));
     let figure = |key, stated, found| StatedFigure { key, stated, found };
+    let [working, local] = [found.working_mobility, found.local_mobility].map(int);
     [
         figure("mobility", e.mobility, int(found.mobility)),
-        figure(
-            "finite_mobility",
-            e.finite_mobility,
-            finite.or(int(found.finite.mobility)),
-        ),
-        figure(
-            "working_mobility",
-            e.working_mobility,
-            int(found.working_mobility),
-        ),
-        figure(
-            "local_mobility",
-            e.local_mobility,
-            int(found.local_mobility),
-        ),
+        figure("finite_mobility", e.finite_mobility, finite),
+        figure("working_mobility", e.working_mobility, working),
+        figure("local_mobility", e.local_mobility, local),
         figure("redundant", e.redundant, int(found.redundant)),
         figure("external_redundant", e.external_redundant, external),
     ]

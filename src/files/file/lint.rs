@@ -161,27 +161,20 @@ fn places(m: &Mechanism, across: f64, out: &mut Found) {
     if looks_rounded(m).is_some_and(|r| r.digits.is_some()) {
         return;
     }
-    let pairs = m.joint_ids().tuple_combinations();
-    let near = pairs.filter(|&(a, b)| {
-        let shared = m.joints[a]
-            .links
-            .iter()
-            .any(|l| m.joints[b].links.contains(l));
-        shared && {
-            let apart = distance(place(&m.joints[a]), place(&m.joints[b]));
-            apart > 0.0 && apart < SAME_PLACE * across
+    for (a, b) in m.joint_ids().tuple_combinations() {
+        let [i, j] = [a, b].map(|j| &m.joints[j]);
+        let apart = distance(place(i), place(j));
+        let near = apart > 0.0 && apart < SAME_PLACE * across;
+        if near && i.links.iter().any(|l| j.links.contains(l)) {
+            let kind = WarningKind::NearlyOnePlace {
+                first: i.id.clone(),
+                second: j.id.clone(),
+                apart: significant(apart),
+                across: significant(across),
+                unit: m.length_unit.symbol,
+            };
+            out.push((key(&index(&root("joint"), b.index()), "point"), kind));
         }
-    });
-    for (a, b) in near {
-        let apart = distance(place(&m.joints[a]), place(&m.joints[b]));
-        let kind = WarningKind::NearlyOnePlace {
-            first: m.joints[a].id.clone(),
-            second: m.joints[b].id.clone(),
-            apart: significant(apart),
-            across: significant(across),
-            unit: m.length_unit.symbol,
-        };
-        out.push((key(&index(&root("joint"), b.index()), "point"), kind));
     }
 }
 

@@ -129,16 +129,10 @@ fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
     let Some(name) = actuator.attribute("tendon") else {
         return Vec::new();
     };
-    let mut out = Vec::new();
-    for section in root.named("tendon") {
-        for fixed in section
-            .named("fixed")
-            .filter(|f| f.attribute("name") == Some(name))
-        {
-            out.extend(fixed.named("joint").filter_map(|j| j.attribute("joint")));
-        }
-    }
-    out
+    let all = root.named("tendon").flat_map(|s| s.named("fixed"));
+    let called = all.filter(|f| f.attribute("name") == Some(name));
+    let joints = called.flat_map(|f| f.named("joint"));
+    joints.filter_map(|j| j.attribute("joint")).collect()
 }
 
 fn bodies<'a>(

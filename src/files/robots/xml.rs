@@ -56,9 +56,19 @@ impl Node {
         self.name == name
     }
 
+    fn find(&self, name: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|a| a.name == name)
+    }
+
+    /// The value of the attribute `name`.
+    fn own_name(&mut self) -> Option<&mut String> {
+        let mut all = self.attributes.iter_mut();
+        all.find(|a| a.name == "name").map(|a| &mut a.value)
+    }
+
     pub(super) fn rename(&mut self, name: String) {
-        if let Some(a) = self.attributes.iter_mut().find(|a| a.name == "name") {
-            a.value = name;
+        if let Some(old) = self.own_name() {
+            *old = name;
         }
     }
 
@@ -88,9 +98,8 @@ impl Node {
     pub(super) fn named_on(&self, suffix: &str) -> Node {
         let mut out = self.clone();
         out.copy = true;
-        let name = out.attributes.iter_mut().find(|a| a.name == "name");
-        if let Some(name) = name {
-            name.value.push_str(suffix);
+        if let Some(name) = out.own_name() {
+            name.push_str(suffix);
         }
         out
     }
@@ -103,8 +112,8 @@ impl Node {
             value,
             span: self.span.clone(),
         };
-        let class = self.attributes.iter().filter(|a| a.name == "childclass");
-        let mut attributes: Vec<Attribute> = class.cloned().collect();
+        let class = self.find("childclass").cloned();
+        let mut attributes: Vec<Attribute> = class.into_iter().collect();
         attributes.extend([made("pos", words(&pos)), made("xyaxes", words(&axes))]);
         Node {
             name: "frame".to_owned(),
@@ -301,16 +310,10 @@ fn node(
         }
         // The value is borrowed from the text where the reader could.
         let at = (found.value.as_ptr() as usize).wrapping_sub(start);
-        let here = at..at.saturating_add(found.value.len());
-        attributes.push(Attribute {
-            name: name.to_owned(),
-            value,
-            span: if text.get(here.clone()).is_some() {
-                here
-            } else {
-                span.clone()
-            },
-        });
+        let here = Some(at..at.saturating_add(found.value.len()));
+        let here = here.filter(|here| text.get(here.clone()).is_some());
+        let (name, span) = (name.to_owned(), here.unwrap_or(span.clone()));
+        attributes.push(Attribute { name, value, span });
     }
     let node = Node::line(tag.name().as_ref(), source, span);
     Ok(Node { attributes, ..node })
@@ -327,7 +330,7 @@ impl<'a> Element<'a> {
 
     /// Where the value of an attribute stands in the file.
     pub(super) fn value_span(self, name: &str) -> Option<Range<usize>> {
-        let found = self.node().attributes.iter().find(|a| a.name == name)?;
+        let found = self.node().find(name)?;
         (found.span != self.node().span).then(|| found.span.clone())
     }
 
@@ -340,11 +343,8 @@ impl<'a> Element<'a> {
     }
 
     pub(crate) fn children(self) -> impl DoubleEndedIterator<Item = Element<'a>> {
-        let document = self.document;
-        self.node()
-            .children
-            .iter()
-            .map(move |&id| Element { document, id })
+        let all = self.node().children.iter();
+        all.map(move |&id| self.document.element(id))
     }
 
     pub(crate) fn named(self, name: &str) -> impl Iterator<Item = Element<'a>> {
@@ -356,11 +356,7 @@ impl<'a> Element<'a> {
     }
 
     pub(crate) fn attribute(self, name: &str) -> Option<&'a str> {
-        self.node()
-            .attributes
-            .iter()
-            .find(|a| a.name == name)
-            .map(|a| a.value.as_str())
+        self.node().find(name).map(|a| a.value.as_str())
     }
 
     /// Names and values of all attributes.
@@ -380,11 +376,8 @@ impl<'a> Element<'a> {
     /// A problem with the element, or with one of its attributes.
     pub(crate) fn fail(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
         let node = self.node();
-        let span = node
-            .attributes
-            .iter()
-            .find(|a| Some(a.name.as_str()) == attribute)
-            .map_or_else(|| node.span.clone(), |a| a.span.clone());
+        let found = attribute.and_then(|name| node.find(name));
+        let span = found.map_or(&node.span, |a| &a.span).clone();
         let source = &self.document.sources[node.source];
         problem.at(&source.name, &source.text, Some(span))
     }
@@ -410,9 +403,8 @@ impl<'a> Element<'a> {
 
     /// The attribute that must be there.
     pub(crate) fn required(self, name: &str) -> Result<&'a str, ImportError> {
-        self.attribute(name)
-            .filter(|v| !v.trim().is_empty())
-            .ok_or_else(|| self.missing(&format!("attribute {name}")))
+        let found = self.attribute(name).filter(|v| !v.trim().is_empty());
+        found.ok_or_else(|| self.missing(&format!("attribute {name}")))
     }
 
     /// The problem that something is not there.

@@ -82,22 +82,16 @@ pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
         out.push("inertias about the plane's normal stand for all three axes".to_owned());
     }
     let loads = &m.loads;
+    let loaded = !loads.forces.is_empty() || !loads.moments.is_empty();
+    let driven = loads.stroke.is_some() || !loads.drive_speeds.is_empty();
+    let searched = m.joints.iter().any(|j| j.options.len() > 1);
     let told = [
-        (
-            !loads.forces.is_empty() || !loads.moments.is_empty(),
-            "forces",
-        ),
+        (loaded, "forces"),
         (loads.gravity.is_some(), "gravity"),
-        (
-            loads.stroke.is_some() || !loads.drive_speeds.is_empty(),
-            "strokes and speeds",
-        ),
+        (driven, "strokes and speeds"),
         (loads.grip.is_some(), "the gripper's data"),
         (loads.drive.is_some(), "the drive's data"),
-        (
-            m.joints.iter().any(|j| j.options.len() > 1),
-            "the options of a search",
-        ),
+        (searched, "the options of a search"),
     ];
     let told = told.iter().filter(|t| t.0).map(|t| t.1).join(", ");
     if !told.is_empty() {
