@@ -1,6 +1,6 @@
 //! What publications say of the mechanisms they show, against what is so.
 
-use crate::common::{built_in, json, near, out};
+use crate::common::{Json, built_in, json, near, out, words};
 use ozols::drive::torsion::{Bar, CamSpring};
 use serde_json::{Value, json as value};
 use std::collections::BTreeSet;
@@ -8,12 +8,12 @@ use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 fn claims(args: &[&str]) -> (Vec<Value>, String) {
     let found = json(&[args, &["--format", "json"]].concat());
-    (found["claims"].as_array().unwrap().clone(), out(args))
+    (found["claims"].list().clone(), out(args))
 }
 
 /// The claim with these words in it.
 fn claim<'c>(claims: &'c [Value], says: &str) -> &'c Value {
-    let with = |c: &&Value| c["claim"].as_str().unwrap().contains(says);
+    let with = |c: &&Value| c["claim"].word().contains(says);
     let those: Vec<&Value> = claims.iter().filter(with).collect();
     assert_eq!(those.len(), 1, "{says}: {claims:?}");
     those[0]
@@ -33,7 +33,7 @@ fn each_confirmed_figure_of_the_gripper_has_a_row() {
         [("gripper-10-redesign", 0), ("gripper-10-unloaded", 1)].map(|(n, i)| state(n, i));
     let [outside, with_pad] = [&clamped, &pad].map(|s| &s["external"]);
     let harm = |s: &Value, verdict: &str| {
-        let all = s["self_stresses"].as_array().unwrap().iter();
+        let all = s["self_stresses"].list().iter();
         all.filter(|x| x["external"] == true && x["verdict"] == verdict)
             .count()
     };
@@ -62,14 +62,14 @@ fn each_confirmed_figure_of_the_gripper_has_a_row() {
             "{says}"
         );
     }
-    let shares = free["per_contour"].as_array().unwrap().iter();
+    let shares = free["per_contour"].list().iter();
     let shares: Vec<&Value> = shares.map(|c| &c["redundant"]).collect();
     assert_eq!(value!(shares), value!([2, 3, 3, 3]));
     assert_eq!(
         redesign["self_stresses"][0]["contours"],
         value!(["0-1-2-3", "0-1-6-7"])
     );
-    let idle = redesign["idle"].as_array().unwrap().iter();
+    let idle = redesign["idle"].list().iter();
     let idle: Vec<&Value> = idle.map(|x| &x["links"][0]).collect();
     assert_eq!(value!(idle), value!(["5", "9"]));
     assert_eq!(
@@ -86,19 +86,12 @@ fn each_confirmed_figure_of_the_gripper_has_a_row() {
 #[test]
 fn the_jaws_of_the_gripper_swing() {
     let text = ozols::builtin::text("gripper-10").unwrap();
-    let stroke = [
-        "statics",
-        "gripper-10-planar",
-        "--stroke",
-        "-0.5:0.5:20",
-        "--format",
-        "json",
-    ];
+    let stroke = words("statics gripper-10-planar --stroke -0.5:0.5:20 --format json");
     let found = json(&stroke);
-    let ends = found["positions"].as_array().unwrap().iter().map(|p| {
-        let all = p["reactions"].as_array().unwrap().iter();
+    let ends = found["positions"].list().iter().map(|p| {
+        let all = p["reactions"].list().iter();
         let end = all.clone().find(|r| r["joint"] == "2-4").unwrap();
-        [0, 1].map(|i| 1e3 * end["point"][i].as_f64().unwrap())
+        [0, 1].map(|i| 1e3 * end["point"][i].real())
     });
     let ends: Vec<[f64; 2]> = ends.collect();
     let (first, last) = (ends[0], ends[ends.len() - 1]);
@@ -123,10 +116,10 @@ fn slips_of_the_shears_are_told_with_what_is_right() {
     let tally = "10 claims, 5 confirmed, 4 refuted, 1 refuted if the scan of the text is right";
     assert!(text.contains(tally), "{text}");
     let found = json(&["statics", "parallel-shears", "--format", "json"]);
-    let positions = found["positions"].as_array().unwrap();
-    let size = |v: &Value| v[0].as_f64().unwrap().hypot(v[1].as_f64().unwrap());
+    let positions = found["positions"].list();
+    let size = |v: &Value| v[0].real().hypot(v[1].real());
     let at = |joint: &str, p: &Value| {
-        let all = p["reactions"].as_array().unwrap().iter();
+        let all = p["reactions"].list().iter();
         size(&all.clone().find(|r| r["joint"] == joint).unwrap()["force"])
     };
     // The method agrees with the equilibrium of all links, at every position and in both groups.
@@ -147,23 +140,19 @@ fn slips_of_the_shears_are_told_with_what_is_right() {
     }
     let cut = positions
         .iter()
-        .find(|p| (p["drive"].as_f64().unwrap() - 165f64.to_radians()).abs() < 1e-9);
+        .find(|p| (p["drive"].real() - 165f64.to_radians()).abs() < 1e-9);
     let kilonewtons = |joint: &str| at(joint, cut.unwrap()) / 1e3;
     let swapped = claim(&claims, "R64 and R74");
     for number in [
         format!("{:.2} and", kilonewtons("4-6")),
         format!("{:.2} kN", kilonewtons("4-7")),
     ] {
-        assert!(
-            swapped["evidence"].as_str().unwrap().contains(&number),
-            "{number}"
-        );
+        assert!(swapped["evidence"].word().contains(&number), "{number}");
     }
     let twice = claim(&claims, "R0/10 stands twice");
     assert!(
         twice["evidence"]
-            .as_str()
-            .unwrap()
+            .word()
             .contains(&format!("{:.3} kN", kilonewtons("0-10")))
     );
     assert!(twice["scan"].is_string());
@@ -185,15 +174,10 @@ fn slips_of_the_shears_are_told_with_what_is_right() {
     let file = folder.path().join("rods.toml");
     std::fs::write(&file, bare).unwrap();
     let found = json(&["statics", file.to_str().unwrap(), "--format", "json"]);
-    let h = found["positions"][0]["contour_groups"][0]["methods"]["equilibrium"]["h"]
-        .as_f64()
-        .unwrap();
+    let h = found["positions"][0]["contour_groups"][0]["methods"]["equilibrium"]["h"].real();
     let zero = claim(&claims, "so h = 0");
     assert!(
-        zero["evidence"]
-            .as_str()
-            .unwrap()
-            .contains(&format!("h = {h:.3} m")),
+        zero["evidence"].word().contains(&format!("h = {h:.3} m")),
         "{h}"
     );
 }
@@ -246,25 +230,18 @@ fn the_plane_of_the_constraints_left_is_that_of_their_forces() {
     let plane = claim(&claims, "in the plane z0y");
     assert_eq!(plane["holds"], false);
     assert_eq!(plane["right"], "in the plane z0x");
-    assert!(plane["scan"].as_str().unwrap().contains("one letter"));
+    assert!(plane["scan"].word().contains("one letter"));
     assert!(text.contains("right: in the plane z0x"), "{text}");
     assert!(text.contains("this rests on one letter"), "{text}");
-    let found = json(&[
-        "analyze",
-        "gripper-10-unloaded",
-        "--state",
-        "clamped",
-        "--format",
-        "json",
-    ]);
-    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
+    let found = json("analyze gripper-10-unloaded --state clamped --format json");
+    let stresses = found["states"][0]["self_stresses"].list();
     let mut left = BTreeSet::new();
     for stress in stresses.iter().filter(|s| s["external"] == true) {
-        let joints = stress["joints"].as_array().unwrap();
+        let joints = stress["joints"].list();
         let at_pad = joints.iter().find(|j| j["joint"] == "a-10").unwrap();
         assert_eq!(at_pad["moments"], value!([]));
-        for axis in at_pad["forces"].as_array().unwrap() {
-            left.insert(axis.as_str().unwrap().to_owned());
+        for axis in at_pad["forces"].list() {
+            left.insert(axis.word().to_owned());
         }
     }
     assert_eq!(left.into_iter().collect::<Vec<_>>(), ["x", "z"]);
@@ -282,13 +259,10 @@ fn misprints_of_the_drive_are_told() {
         "½ ((1 + ψ0)² - ψ0²) c S²"
     );
     let found = json(&["drive", "torsion-module", "--format", "json"]);
-    let number = |key: &str| found["design"][key].as_f64().unwrap();
+    let number = |key: &str| found["design"][key].real();
     let has = |says: &str, number: String| {
         let row = claim(&claims, says);
-        assert!(
-            row["evidence"].as_str().unwrap().contains(&number),
-            "{number}: {row}"
-        );
+        assert!(row["evidence"].word().contains(&number), "{number}: {row}");
     };
     let short = number("missing_angle");
     has("δ ≈", format!("{:.3}°", short.to_degrees()));
@@ -317,7 +291,7 @@ fn misprints_of_the_drive_are_told() {
     has("bears a twist", format!("{:.2}°", twist.to_degrees()));
     near(8e10 * d * twist / (2.0 * l), 6e8, 1.0);
     // (10) gives back the diameter that (9) takes.
-    let inertia = found["inertias"][0].as_f64().unwrap();
+    let inertia = found["inertias"][0].real();
     let period = 8.0 * (2.0 * PI * inertia * l / (d.powi(4) * 8e10)).sqrt();
     near(period, TAU * (inertia / k).sqrt(), 1e-9);
     near(
@@ -339,14 +313,9 @@ fn misprints_of_the_drive_are_told() {
         let links = m.joints[latched].links.map(|l| m.links[l].id.as_str());
         assert!(links.contains(&disc));
         assert_eq!(
-            json(&[
-                "analyze",
-                "torsion-module",
-                "--state",
-                held,
-                "--format",
-                "json"
-            ])["states"][0]["mobility"],
+            json(&format!(
+                "analyze torsion-module --state {held} --format json"
+            ))["states"][0]["mobility"],
             1
         );
     }
@@ -423,14 +392,11 @@ fn optional_keys_are_empty_and_not_absent() {
     assert_eq!(free["contacts"], value!([]));
     assert!(
         free["reactions"]
-            .as_array()
-            .unwrap()
+            .list()
             .iter()
             .all(|r| r["open"].is_array())
     );
-    let found = keys(&json(&[
-        "search", "four-bar", "--top", "1", "--format", "json",
-    ]));
+    let found = keys(&json("search four-bar --top 1 --format json"));
     for key in [
         "ranking",
         "numeric",

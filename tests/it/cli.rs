@@ -166,14 +166,9 @@ fn allow_forbid_hold_narrow_the_space() {
 fn threads_do_not_matter() {
     for format in ["text", "json", "csv"] {
         let by = |threads| {
-            out(&[
-                "search",
-                "gripper-10",
-                "--threads",
-                threads,
-                "--format",
-                format,
-            ])
+            out(&format!(
+                "search gripper-10 --threads {threads} --format {format}"
+            ))
         };
         let one = by("1");
         assert_eq!(one, by("2"), "{format}");
@@ -184,16 +179,9 @@ fn threads_do_not_matter() {
 #[test]
 fn samples_repeat_with_the_seed() {
     let sample = |seed| {
-        out(&[
-            "search",
-            "gripper-10",
-            "--sample",
-            "20",
-            "--seed",
-            seed,
-            "--format",
-            "csv",
-        ])
+        out(&format!(
+            "search gripper-10 --sample 20 --seed {seed} --format csv"
+        ))
     };
     let one = sample("1");
     assert_eq!(one.lines().count(), 21);

@@ -14,15 +14,91 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::sync::OnceLock;
 
-pub(crate) fn ozols(args: &[&str]) -> Command {
+/// A command line: its words, or a text with blanks between them.
+pub(crate) trait Line {
+    fn words(&self) -> Vec<&str>;
+}
+
+impl Line for str {
+    fn words(&self) -> Vec<&str> {
+        words(self)
+    }
+}
+
+impl Line for String {
+    fn words(&self) -> Vec<&str> {
+        words(self)
+    }
+}
+
+impl Line for [&str] {
+    fn words(&self) -> Vec<&str> {
+        self.to_vec()
+    }
+}
+
+impl<const N: usize> Line for [&str; N] {
+    fn words(&self) -> Vec<&str> {
+        self.to_vec()
+    }
+}
+
+impl Line for Vec<&str> {
+    fn words(&self) -> Vec<&str> {
+        self.clone()
+    }
+}
+
+pub(crate) fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+pub(crate) fn ozols<L: Line + ?Sized>(args: &L) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
     // What the tests are started in is not to fold what they read.
-    command.args(args).env_remove("OZOLS_WIDTH");
+    command.args(args.words()).env_remove("OZOLS_WIDTH");
     command
 }
 
-pub(crate) fn run(args: &[&str]) -> Output {
+pub(crate) fn run<L: Line + ?Sized>(args: &L) -> Output {
     ozols(args).output().unwrap()
+}
+
+/// Asserts that a text has a part, and shows the whole where it has not.
+#[track_caller]
+pub(crate) fn has(text: &str, part: &str) {
+    assert!(text.contains(part), "no {part:?} in {text}");
+}
+
+/// The same of several parts.
+#[track_caller]
+pub(crate) fn has_all(text: &str, parts: &[&str]) {
+    for part in parts {
+        has(text, part);
+    }
+}
+
+/// What a value of JSON is known to be.
+pub(crate) trait Json {
+    fn list(&self) -> &Vec<Value>;
+    fn word(&self) -> &str;
+    fn real(&self) -> f64;
+    fn whole(&self) -> u64;
+}
+
+impl Json for Value {
+    fn list(&self) -> &Vec<Value> {
+        self.as_array().unwrap()
+    }
+    fn word(&self) -> &str {
+        self.as_str().unwrap()
+    }
+    fn real(&self) -> f64 {
+        self.as_f64().unwrap()
+    }
+    fn whole(&self) -> u64 {
+        self.as_u64().unwrap()
+    }
 }
 
 pub(crate) fn text(bytes: &[u8]) -> String {
@@ -40,16 +116,21 @@ pub(crate) fn timeless(text: &str) -> String {
 }
 
 /// Standard output of a run that succeeds and says nothing else but how long a search took and which usual options it had.
-pub(crate) fn out(args: &[&str]) -> String {
+pub(crate) fn out<L: Line + ?Sized>(args: &L) -> String {
     let o = run(args);
     let said = timeless(&text(&o.stderr));
     let usual = |l: &&str| !l.contains("offers no joint types, so the usual ones are tried");
     let said: String = said.split_inclusive('\n').filter(usual).collect();
-    assert_eq!((o.status.code(), said.as_str()), (Some(0), ""), "{args:?}");
+    assert_eq!(
+        (o.status.code(), said.as_str()),
+        (Some(0), ""),
+        "{:?}",
+        args.words()
+    );
     timeless(&text(&o.stdout))
 }
 
-pub(crate) fn json(args: &[&str]) -> Value {
+pub(crate) fn json<L: Line + ?Sized>(args: &L) -> Value {
     serde_json::from_str(&out(args)).unwrap()
 }
 

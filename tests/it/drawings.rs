@@ -15,7 +15,7 @@ mod space;
 mod undriven;
 
 use self::reading::{collisions, covers, misread, outside, texts};
-use crate::common::{built_in, out, ozols};
+use crate::common::{Json, built_in, out, ozols};
 use ozols::builtin;
 use ozols::draw::{Drawing, Marks, Rect, Subject, kinematic, scheme};
 use ozols::file::text::mechanism_from_str;
@@ -289,25 +289,18 @@ fn command_line() {
     let svg = out(&["draw", "gripper-10"]);
     assert!(svg.starts_with("<svg "), "{svg}");
     assert!(svg.contains("Structural scheme, state free"));
-    let svg = out(&[
-        "draw",
-        "gripper-10",
-        "--kind",
-        "kinematic",
-        "--state",
-        "clamped",
-    ]);
+    let svg = out("draw gripper-10 --kind kinematic --state clamped");
     assert!(svg.contains("Kinematic scheme seen along z, state clamped"));
     // the same variant as in the list of `ozols search`
     let list = out(&["search", "gripper-10", "--top", "2", "--format", "json"]);
     let list: serde_json::Value = serde_json::from_str(&list).unwrap();
     let svg = out(&["draw", "gripper-10", "--variant", "2"]);
     assert!(svg.contains("gripper-10, variant 2"));
-    let changes = list["variants"][1]["changes"].as_array().unwrap();
+    let changes = list["variants"][1]["changes"].list();
     assert!(!changes.is_empty());
     for c in changes {
-        let words = format!("{}: ", c["joint"].as_str().unwrap());
-        let to = c["to"].as_str().unwrap();
+        let words = format!("{}: ", c["joint"].word());
+        let to = c["to"].word();
         let says = texts(&svg)
             .iter()
             .any(|(t, _)| t.starts_with(&words) && t.ends_with(to));
@@ -352,14 +345,14 @@ fn command_line() {
         let list = out(&[search, &["--top", "3", "--format", "json"]].concat());
         let list: serde_json::Value = serde_json::from_str(&list).unwrap();
         let svg = out(&[more, &["--variant", "3"]].concat());
-        let changes = list["variants"][2]["changes"].as_array().unwrap();
+        let changes = list["variants"][2]["changes"].list();
         let said = texts(&svg);
         assert_eq!(
             changes.len(),
             said.iter().filter(|(t, _)| t.contains(" → ")).count()
         );
         for c in changes {
-            let (joint, to) = (c["joint"].as_str().unwrap(), c["to"].as_str().unwrap());
+            let (joint, to) = (c["joint"].word(), c["to"].word());
             let says = |t: &str| t.starts_with(&format!("{joint}: ")) && t.ends_with(to);
             assert!(said.iter().any(|(t, _)| says(t)), "{more:?} {joint} {to}");
         }

@@ -1,6 +1,6 @@
 //! What `ozols analyze` says of the drives: which are locked, which work against each other, where the outputs stand still.
 
-use crate::common::{json, ozols};
+use crate::common::{Json, json, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
@@ -72,13 +72,8 @@ fn faults_of_drives_are_found() {
 #[test]
 fn what_is_meant_is_no_fault() {
     let clamped = json(&["analyze", "gripper-10", "--format", "json"]);
-    for state in clamped["states"].as_array().unwrap() {
-        assert_eq!(
-            state["drives"].as_array().unwrap().len(),
-            0,
-            "{}",
-            state["state"]
-        );
+    for state in clamped["states"].list() {
+        assert_eq!(state["drives"].list().len(), 0, "{}", state["state"]);
     }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("dead.toml");
@@ -89,5 +84,5 @@ fn what_is_meant_is_no_fault() {
     let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     let state = &found["states"][0];
     assert_eq!(state["drives"][0]["kind"], "dead-point");
-    assert_eq!(state["idle"].as_array().unwrap().len(), 0);
+    assert_eq!(state["idle"].list().len(), 0);
 }

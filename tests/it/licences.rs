@@ -1,5 +1,6 @@
 //! What the program is built from may be handed out with it, and comes from where packages are kept for good.
 
+use crate::common::Json;
 use serde_json::Value;
 use std::process::Command;
 
@@ -77,7 +78,7 @@ fn every_dependency_may_be_handed_out() {
         .output()
         .unwrap();
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
-    let packages = v["packages"].as_array().unwrap();
+    let packages = v["packages"].list();
     assert!(packages.len() > 50);
     for p in packages {
         let licence = p["license"].as_str().unwrap_or_default();

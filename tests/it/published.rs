@@ -1,5 +1,6 @@
 //! The reference figures, by the program itself.
 
+use crate::common::Json;
 use assert_cmd::Command;
 use serde_json::Value;
 
@@ -44,7 +45,7 @@ fn the_first_row_of_the_reference_table() {
         assert_eq!(row["by_mobility"][w], n, "W = {w}");
     }
     assert_eq!(row["by_mobility"].as_object().unwrap().len(), want.len());
-    assert!(row["largest_layer"].as_u64().unwrap() <= 80);
+    assert!(row["largest_layer"].whole() <= 80);
     let brute = json(&[
         "search",
         "gripper-10",
@@ -79,7 +80,7 @@ fn the_second_row_of_the_reference_table() {
         row["by_mobility_and_changes"]["1"],
         serde_json::json!({"6": "720", "7": "31536"})
     );
-    assert!(row["largest_layer"].as_u64().unwrap() <= 840);
+    assert!(row["largest_layer"].whole() <= 840);
 }
 
 /// Brute force over the second row, 16,777,216 eliminations.
@@ -121,7 +122,7 @@ fn the_third_row_of_the_reference_table() {
         assert_eq!(row["by_mobility"][w], n, "W = {w}");
     }
     // 313 in the table; the order found here has fewer nodes in all and a wider layer among them.
-    assert!(row["largest_layer"].as_u64().unwrap() <= 365);
+    assert!(row["largest_layer"].whole() <= 365);
     assert_eq!(row["stop"], "exhausted");
 }
 
@@ -143,8 +144,7 @@ fn the_figures_of_the_ten_link_gripper() {
         assert_eq!(free[key], n, "{key}");
     }
     let shares: Vec<i64> = free["per_contour"]
-        .as_array()
-        .unwrap()
+        .list()
         .iter()
         .map(|c| c["redundant"].as_i64().unwrap())
         .collect();
@@ -178,10 +178,9 @@ fn the_figures_of_the_ten_link_gripper() {
         assert_eq!(redesign[key], n, "{key}");
     }
     let idle: Vec<&str> = redesign["idle"]
-        .as_array()
-        .unwrap()
+        .list()
         .iter()
-        .map(|i| i["links"][0].as_str().unwrap())
+        .map(|i| i["links"][0].word())
         .collect();
     assert_eq!(idle, ["5", "9"]);
     let pad = &state(&json(&["analyze", "gripper-10-unloaded"]), 1)["external"];
@@ -241,8 +240,7 @@ fn one_of_each_mirror_pair_is_listed() {
     ];
     let total = |more: &[&str]| -> u64 {
         json(&[&args[..], more, &["--count"]].concat())["admissible"]
-            .as_str()
-            .unwrap()
+            .word()
             .parse()
             .unwrap()
     };
@@ -253,5 +251,5 @@ fn one_of_each_mirror_pair_is_listed() {
     );
     assert_eq!(orbits, (all + symmetric) / 2);
     let listed = json(&[&args[..], &["--one-per-orbit", "--all"]].concat());
-    assert_eq!(listed["variants"].as_array().unwrap().len() as u64, orbits);
+    assert_eq!(listed["variants"].list().len() as u64, orbits);
 }

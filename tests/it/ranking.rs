@@ -6,7 +6,7 @@ mod geared;
 mod proof;
 mod reasons;
 
-use crate::common::out;
+use crate::common::{out, words};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
@@ -314,14 +314,7 @@ fn limits_filter() {
 
 #[test]
 fn the_order_does_not_depend_on_the_number_of_threads() {
-    let args = [
-        "search",
-        "gripper-10-loaded",
-        "--pool",
-        "6000",
-        "--format",
-        "json",
-    ];
+    let args = words("search gripper-10-loaded --pool 6000 --format json");
     let with = |n: &str| out(&[&args[..], &["--threads", n]].concat());
     let one = with("1");
     assert_eq!(one, with("2"));
@@ -424,9 +417,7 @@ fn that_scores_are_at_rest_is_said_where_there_is_a_speed() {
     )
     .unwrap();
     let said = |file: &str| {
-        let o = crate::common::run(&[
-            "search", file, "--top", "1", "--pool", "50", "--check", "none",
-        ]);
+        let o = crate::common::run(&format!("search {file} --top 1 --pool 50 --check none"));
         String::from_utf8(o.stderr).unwrap()
     };
     assert!(

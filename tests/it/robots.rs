@@ -16,7 +16,7 @@ mod sdf;
 mod taken;
 mod unread;
 
-use crate::common::ozols;
+use crate::common::{has, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::file::write::mechanism_file;
 use ozols::model::mechanism::StateId;
@@ -235,10 +235,8 @@ fn hostile_xml() {
     let bomb = r#"<?xml version="1.0"?><!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;">]><robot name="&b;"/>"#;
     for name in ["x.urdf", "x.xml", "x.sdf"] {
         let e = refused(name, bomb);
-        assert!(
-            e.contains("declares entities") && e.contains(&format!("{name}:1:")),
-            "{e}"
-        );
+        has(&e, "declares entities");
+        has(&e, &format!("{name}:1:"));
     }
     assert!(refused("x.urdf", "<robot name=\"&b;\"/>").contains("not well-formed"));
     let deep = "<robot>".to_owned() + &"<a>".repeat(100_000);

@@ -1,6 +1,7 @@
 //! What the gate compiles, it compiles once: tests, the program and the Python package share their dependencies and crates, since
 //! none of them asks for features that the others do not have.
 
+use crate::common::Json;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -19,10 +20,10 @@ fn planned(command: &[&str]) -> BTreeMap<(String, String), BTreeSet<String>> {
     let plan: Value = serde_json::from_slice(&out.stdout)
         .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&out.stderr)));
     let mut all: BTreeMap<_, BTreeSet<String>> = BTreeMap::new();
-    for unit in plan["units"].as_array().unwrap() {
+    for unit in plan["units"].list() {
         // Tests themselves, and what runs a build script, are no libraries.
         if unit["mode"] == "build" {
-            let of = |what: &Value| what.as_str().unwrap().to_owned();
+            let of = |what: &Value| what.word().to_owned();
             let name = (of(&unit["pkg_id"]), of(&unit["target"]["name"]));
             let with = (&unit["features"], &unit["profile"]["opt_level"]);
             all.entry(name).or_default().insert(format!("{with:?}"));

@@ -1,6 +1,6 @@
 //! Tables say what they leave out, and one name stands for one thing.
 
-use crate::common::{out, ozols, run_on};
+use crate::common::{has, out, ozols, run_on};
 use crate::robots::{folder, legs};
 
 /// The rows of a table after a head that begins with `first`.
@@ -47,7 +47,7 @@ fn conditionings_have_their_own_names() {
         "{head:?}"
     );
     assert!(!text.contains("condit."), "{text}");
-    assert!(text.contains("cond. held: as cond."), "{text}");
+    has(&text, "cond. held: as cond.");
 }
 
 /// A robot of many joints has variants of many mobilities: the least are told one by one, the others in a row, and all add up.

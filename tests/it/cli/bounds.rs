@@ -1,7 +1,7 @@
 //! Budgets of nodes, memory and threads, and files that are too large: an honest stop or a message, never an abort.
 
 use super::refused;
-use crate::common::{ozols, run, text};
+use crate::common::{Json, has, ozols, run, text};
 use num_bigint::BigUint;
 use serde_json::Value;
 use std::fmt::Write;
@@ -56,7 +56,7 @@ fn found(text: &str, more: &[&str]) -> Value {
 }
 
 fn number(v: &Value) -> BigUint {
-    v.as_str().unwrap().parse().unwrap()
+    v.word().parse().unwrap()
 }
 
 /// Once wrong: 3.8e40 with 1,000 nodes, and 2.3e36 with 100,000.
@@ -101,7 +101,7 @@ fn what_finished_within_the_memory_stays_exact() {
         let (all, some) = (number(&whole["determinate"]), number(&v["determinate"]));
         assert!(some <= all, "{memory}");
         assert_eq!(v["determinate_exact"] == true, some == all, "{memory}");
-        words.push(v["stop"].as_str().unwrap().to_owned());
+        words.push(v["stop"].word().to_owned());
     }
     assert!(words.contains(&"memory".to_owned()), "{words:?}");
 }
@@ -227,7 +227,7 @@ fn a_search_says_how_much_memory_it_took_of_what_it_may() {
         .output()
         .unwrap();
     let said = text(&o.stderr);
-    assert!(said.contains(" MiB of memory (300 MiB allowed)"), "{said}");
+    has(&said, " MiB of memory (300 MiB allowed)");
 }
 
 /// Once an abort: all of the sample was drawn before any of it was given.
@@ -272,7 +272,7 @@ fn a_mechanism_too_entangled_is_refused_at_once() {
         .unwrap();
     let said = text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{said}");
-    assert!(said.contains("23988 rows and 3999 columns"), "{said}");
+    has(&said, "23988 rows and 3999 columns");
 }
 
 /// Once two minutes.
@@ -290,5 +290,5 @@ fn a_long_open_chain_is_analysed_and_its_search_refused() {
     let o = ozols(&["search", "-"]).write_stdin(chain).output().unwrap();
     let said = text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{said}");
-    assert!(said.contains("300 joints are in no contour"), "{said}");
+    has(&said, "300 joints are in no contour");
 }

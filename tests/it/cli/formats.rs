@@ -1,7 +1,7 @@
 //! The contract of the formats, design.md section 4: keys, columns, counts.
 
 use super::{small, small_out};
-use crate::common::{count, json, run};
+use crate::common::{Json, count, json, run};
 use serde_json::Value;
 
 // The contract of the formats, design.md section 4.
@@ -10,12 +10,9 @@ use serde_json::Value;
 fn keys_of_analyze() {
     let v = json(&["analyze", "gripper-10", "--format", "json"]);
     assert_eq!(v["mechanism"], "gripper-10");
-    let states = v["states"].as_array().unwrap();
+    let states = v["states"].list();
     assert_eq!(
-        states
-            .iter()
-            .map(|s| s["state"].as_str().unwrap())
-            .collect::<Vec<_>>(),
+        states.iter().map(|s| s["state"].word()).collect::<Vec<_>>(),
         ["free", "clamped"]
     );
     for s in states {
@@ -35,7 +32,7 @@ fn keys_of_analyze() {
         for k in ["method", "certainty"] {
             assert!(s[k].is_string(), "{k}");
         }
-        for c in s["per_contour"].as_array().unwrap() {
+        for c in s["per_contour"].list() {
             assert!(c["joints"][0].is_string() && c["redundant"].is_number());
         }
         assert!(s.as_object().unwrap().contains_key("external"));
@@ -66,20 +63,17 @@ fn keys_of_search() {
         );
     }
     assert!(v["largest_layer"].is_u64() && v["nodes"].is_u64() && v["stop"].is_string());
-    let variants = v["variants"].as_array().unwrap();
+    let variants = v["variants"].list();
     assert_eq!(variants.len(), 3);
     for (i, x) in variants.iter().enumerate() {
         assert_eq!(x["position"], i + 1);
         assert!(x["cost"].is_number() && x["scores"].is_object());
         assert!(x["mobility"].is_i64() && x["redundant"] == 0);
-        for c in x["changes"].as_array().unwrap() {
+        for c in x["changes"].list() {
             assert!(c["joint"].is_string() && c["from"] == "revolute" && c["to"] == "spherical");
         }
     }
-    let costs: Vec<f64> = variants
-        .iter()
-        .map(|x| x["cost"].as_f64().unwrap())
-        .collect();
+    let costs: Vec<f64> = variants.iter().map(|x| x["cost"].real()).collect();
     assert!(costs.is_sorted());
 }
 
@@ -114,7 +108,7 @@ fn all_gives_the_admissible_ones() {
         56
     );
     let v: Value = serde_json::from_str(&small_out(&["--all", "--format", "json"])).unwrap();
-    assert_eq!(v["variants"].as_array().unwrap().len(), 56);
+    assert_eq!(v["variants"].list().len(), 56);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Nothing is lost: outputs of one name, outputs that are read, disks and files that are full.
 
 use super::four_bar;
-use crate::common::{out, ozols, run, text};
+use crate::common::{has, out, ozols, run, text};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -72,14 +72,7 @@ fn two_outputs_of_one_name_are_refused() {
     let o = ozols(&both).current_dir(folder).output().unwrap();
     assert_eq!((o.status.code(), held(folder).len()), (Some(0), 2));
     #[cfg(unix)]
-    out(&[
-        "analyze",
-        "four-bar",
-        "--certificate",
-        "/dev/null",
-        "-o",
-        "/dev/null",
-    ]);
+    out("analyze four-bar --certificate /dev/null -o /dev/null");
 }
 
 /// A folder of charts has a page, which no other output replaces.
@@ -94,7 +87,7 @@ fn an_output_among_the_charts_is_refused() {
     let o = run(&[&words[..], &[&charts, "-o", &page]].concat());
     let said = text(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{said}");
-    assert!(said.contains("written by this command already"), "{said}");
+    has(&said, "written by this command already");
     assert!(fs::read_to_string(&page).unwrap().starts_with("<!"));
 }
 

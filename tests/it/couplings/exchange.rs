@@ -1,8 +1,8 @@
 //! Couplings in what is written and read: the page, mechanism files, robot formats, drawings.
 
 use super::{SLIDE, TURN, coupled, exact, mechanism, pair};
-use crate::common::built_in;
 use crate::common::ozols;
+use crate::common::{Json, built_in, has};
 use ozols::model::mechanism::StateId;
 
 #[test]
@@ -12,7 +12,7 @@ fn the_report_has_a_row_for_each_coupling() {
         .unwrap();
     let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     let shares = &v["states"][0]["per_coupling"];
-    assert_eq!(shares.as_array().unwrap().len(), 6);
+    assert_eq!(shares.list().len(), 6);
     assert_eq!(shares[5]["coupling"], "0-c ~ c-3");
     assert_eq!(
         (&shares[5]["redundant"], &shares[0]["greatest"]),
@@ -25,10 +25,8 @@ fn the_report_has_a_row_for_each_coupling() {
             .stdout,
     )
     .unwrap();
-    assert!(
-        text.contains("c = 1 coupling") && text.contains("0-1 ~ 0-4"),
-        "{text}"
-    );
+    has(&text, "c = 1 coupling");
+    has(&text, "0-1 ~ 0-4");
 }
 
 #[test]
@@ -55,15 +53,10 @@ fn exported_as_mimic_joints() {
     let m = mechanism(&pair(SLIDE, TURN, &coupled("a", "b", "\"1/20\"")));
     let urdf = formats::write(&m, "urdf").unwrap();
     // 1/20 rad a mm is 50 rad a m.
-    assert!(
-        urdf.contains("<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>"),
-        "{urdf}"
-    );
+    has(&urdf, "<mimic joint=\"a\" multiplier=\"50\" offset=\"0\"/>");
     let sdf = formats::write(&m, "sdf").unwrap();
-    assert!(
-        sdf.contains("<sdf version=\"1.11\">") && sdf.contains("<multiplier>50</multiplier>"),
-        "{sdf}"
-    );
+    has(&sdf, "<sdf version=\"1.11\">");
+    has(&sdf, "<multiplier>50</multiplier>");
     let gear = built_in("planetary-gear");
     let sdf = formats::write(&gear, "sdf").unwrap();
     assert_eq!(
@@ -76,9 +69,9 @@ fn exported_as_mimic_joints() {
     );
     assert!(!sdf.contains('\0'));
     let urdf = formats::write(&built_in("geared-gripper"), "urdf").unwrap();
-    assert!(
-        urdf.contains("<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>"),
-        "{urdf}"
+    has(
+        &urdf,
+        "<mimic joint=\"0-1\" multiplier=\"-1\" offset=\"0\"/>",
     );
 }
 
@@ -96,16 +89,14 @@ fn ratios_are_turned_over_where_the_second_joint_leads() {
     ] {
         let m = mechanism(&pair(first, &driven(second), &coupled("a", "b", ratio)));
         let urdf = formats::write(&m, "urdf").unwrap();
-        assert!(
-            urdf.contains(&format!("<mimic joint=\"b\" multiplier=\"{multiplier}\"")),
-            "{urdf}"
+        has(
+            &urdf,
+            &format!("<mimic joint=\"b\" multiplier=\"{multiplier}\""),
         );
         let sdf = formats::write(&m, "sdf").unwrap();
-        assert!(
-            sdf.contains(&format!(
-                "<mimic joint=\"b\" axis=\"axis\"><multiplier>{multiplier}<"
-            )),
-            "{sdf}"
+        has(
+            &sdf,
+            &format!("<mimic joint=\"b\" axis=\"axis\"><multiplier>{multiplier}<"),
         );
     }
     // MuJoCo's equality says the second by the first, whichever is driven.
@@ -202,7 +193,7 @@ fn equalities_of_mujoco() {
     // A polynomial by its derivative at the pose.
     let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#);
     let told = i.report.text("x.xml");
-    assert!(told.contains("the derivative at this pose"), "{told}");
+    has(&told, "the derivative at this pose");
     let m = mechanism(&i.toml().unwrap());
     assert_eq!(
         (m.couplings[0].ratio.to_f64(), exact(&m).mobility),
@@ -211,7 +202,7 @@ fn equalities_of_mujoco() {
     let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 0"/>"#);
     assert_eq!((i.report.coupling_rows, i.report.kept), (1, None));
     let told = i.report.text("x.xml");
-    assert!(told.contains("times 0"), "{told}");
+    has(&told, "times 0");
     assert_eq!(exact(&mechanism(&i.toml().unwrap())).mobility, 3);
     // A joint held at a constant moves no more.
     let i = mjcf(r#"<joint joint1="b"/>"#);

@@ -1,7 +1,7 @@
 //! Figures in the README and the guide that stand in no example, against what the program finds.
 
 use crate::accuracy::SURVEY;
-use crate::common::{count, json, out, run};
+use crate::common::{Json, count, json, out, run};
 use ozols::chains::classics::classics;
 use ozols::rank::method::registry;
 use serde_json::Value;
@@ -118,22 +118,16 @@ fn sizes_of_searches_are_those_of_the_searches() {
     let names = ["four-bar", "watt-six-bar", "scissor-lift-3", "gripper-10"];
     let of = |name: &&str| {
         let options = "revolute,cylindrical,spherical";
-        json(&[
-            "search",
-            name,
-            "--count",
-            "--options",
-            options,
-            "--format",
-            "json",
-        ])
+        json(&format!(
+            "search {name} --count --options {options} --format json"
+        ))
     };
     let found = names.each_ref().map(of);
     for (row, key) in [
         ("variants", "space"),
         ("without redundant constraints", "determinate"),
     ] {
-        let counts = found.each_ref().map(|f| grouped(f[key].as_str().unwrap()));
+        let counts = found.each_ref().map(|f| grouped(f[key].word()));
         says(
             "src/guide/beside.md",
             &format!("| {row} | {} |", counts.join(" | ")),
@@ -151,8 +145,8 @@ fn redesigns_of_the_gripper_are_those_that_are_found() {
         "README.md",
         &format!("| as built | none | 0 | {} | none |", figures(&built)),
     );
-    let idle = paper["idle"].as_array().unwrap().iter();
-    let idle: Vec<&str> = idle.map(|x| x["links"][0].as_str().unwrap()).collect();
+    let idle = paper["idle"].list().iter();
+    let idle: Vec<&str> = idle.map(|x| x["links"][0].word()).collect();
     says(
         "README.md",
         &format!(
@@ -171,9 +165,9 @@ fn redesigns_of_the_gripper_are_those_that_are_found() {
     .concat();
     let best = json(&search)["variants"][0].clone();
     let to = |kind: &str| {
-        let changes = best["changes"].as_array().unwrap().iter();
+        let changes = best["changes"].list().iter();
         let those = changes.filter(|c| c["to"] == kind);
-        let joints: Vec<&str> = those.map(|c| c["joint"].as_str().unwrap()).collect();
+        let joints: Vec<&str> = those.map(|c| c["joint"].word()).collect();
         format!("{} -> {kind}", joints.join(", "))
     };
     let changes = ["spherical", "cylindrical"].map(to).join("; ");
@@ -200,12 +194,12 @@ fn as_many_schemes_are_known_as_the_documents_say() {
 #[test]
 fn the_guide_has_the_energies_of_the_built_in_drive() {
     let found = json(&["drive", "torsion-module", "--format", "json"]);
-    let energy = found["design"]["friction_energy"].as_f64().unwrap();
+    let energy = found["design"]["friction_energy"].real();
     says(
         "src/guide/drive.md",
         &format!("With the {energy:.4} J of (12)"),
     );
-    let [feed, needed] = ["feed", "needed_feed"].map(|key| found["design"][key].as_f64().unwrap());
+    let [feed, needed] = ["feed", "needed_feed"].map(|key| found["design"][key].real());
     let more = 100.0 * (feed / needed - 1.0);
     says(
         "src/guide/drive.md",

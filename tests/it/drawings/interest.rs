@@ -1,6 +1,6 @@
 //! Points of interest: where they are, their ways over the stroke, and what is wrong with some.
 
-use crate::common::{changed, out, run_on};
+use crate::common::{changed, has, out, run_on};
 
 /// The numbers of a path, point by point.
 fn points(d: &str) -> Vec<[f64; 2]> {
@@ -46,14 +46,7 @@ fn step() -> Vec<[f64; 2]> {
 
 #[test]
 fn the_foot_of_jansens_leg_goes_its_step() {
-    let svg = out(&[
-        "draw",
-        "jansen-leg",
-        "--kind",
-        "kinematic",
-        "--stroke",
-        "0:360deg:36",
-    ]);
+    let svg = out("draw jansen-leg --kind kinematic --stroke 0:360deg:36");
     let (drawn, meant) = (trace(&svg), step());
     assert!(drawn.len() >= 36);
     let box_of = |p: &[[f64; 2]]| {
@@ -102,16 +95,9 @@ fn points_are_shown_in_every_kinematic_drawing() {
     let written = out(&["export", "jansen-leg", "--to", "toml"]);
     assert!(written.contains("[[point]]") && written.contains("id = \"foot\""));
     let options = "spherical,cylindrical,sphere-in-cylinder";
-    let variant = crate::common::run(&[
-        "export",
-        "jansen-leg",
-        "--options",
-        options,
-        "--variant",
-        "1",
-        "--to",
-        "toml",
-    ]);
+    let variant = crate::common::run(&format!(
+        "export jansen-leg --options {options} --variant 1 --to toml"
+    ));
     let variant = crate::common::text(&variant.stdout);
     assert!(variant.contains("id = \"foot\""));
 }
@@ -143,18 +129,12 @@ fn what_is_wrong_with_a_point_is_told() {
     let twice = own.clone() + "\n[[point]]\nid = \"foot\"\nlink = \"m\"\npoint = [0, 0, 0]\n";
     let (code, _, err) = run_on("check", "leg.toml", &twice, &[]);
     assert_eq!(code, Some(2));
-    assert!(err.contains("point has the id \"foot\" twice"), "{err}");
+    has(&err, "point has the id \"foot\" twice");
 }
 
 #[test]
 fn the_faces_of_jaws_are_shown_with_their_ways() {
-    let open = out(&[
-        "draw",
-        "gripper-10",
-        "--kind",
-        "kinematic",
-        "--stroke=-1:1:20",
-    ]);
+    let open = out("draw gripper-10 --kind kinematic --stroke=-1:1:20");
     let doc = roxmltree::Document::parse(&open).unwrap();
     let faces = doc.descendants().filter_map(|n| n.attribute("data-point"));
     assert_eq!(faces.collect::<Vec<_>>(), ["4-a", "a-8"]);
@@ -163,13 +143,6 @@ fn the_faces_of_jaws_are_shown_with_their_ways() {
         .filter(|n| n.attribute("class") == Some("trace"));
     assert_eq!(ways.count(), 3, "one of each face, and one in the legend");
     // what is drawn as a joint is no point
-    let closed = out(&[
-        "draw",
-        "gripper-10",
-        "--kind",
-        "kinematic",
-        "--state",
-        "clamped",
-    ]);
+    let closed = out("draw gripper-10 --kind kinematic --state clamped");
     assert!(!closed.contains("data-point") && closed.contains("data-joint=\"4-a\""));
 }

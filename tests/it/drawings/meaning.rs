@@ -294,15 +294,7 @@ fn the_stroke_of_a_gripper_ends_where_its_jaws_meet() {
         .fold(f64::INFINITY, f64::min);
     assert!(least < 1.0, "{least} pixels apart");
     // A range that is asked for is kept, whatever it goes through.
-    let asked = out(&[
-        "draw",
-        "gripper-10",
-        "--kind",
-        "kinematic",
-        "--motion",
-        "--stroke",
-        "-1.5:2:40",
-    ]);
+    let asked = out("draw gripper-10 --kind kinematic --motion --stroke -1.5:2:40");
     assert!(!asked.contains("jaws meet"));
 }
 

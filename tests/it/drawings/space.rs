@@ -1,12 +1,12 @@
 //! The mechanism in space on the report page: its first view is the drawing it lies on, and its poses keep joints together.
 
-use crate::common::out;
+use crate::common::{Json, out};
 use serde_json::Value;
 
 type Vector = [f64; 3];
 
 fn vector(v: &Value) -> Vector {
-    [0, 1, 2].map(|i| v[i].as_f64().unwrap())
+    [0, 1, 2].map(|i| v[i].real())
 }
 
 fn dot(a: Vector, b: Vector) -> f64 {
@@ -19,12 +19,7 @@ fn cross(a: Vector, b: Vector) -> Vector {
 
 /// A point carried by six numbers, a rotation vector and where the origin goes (Rodrigues), or by none.
 fn carried(by: &Value, p: Vector) -> Vector {
-    let n: Vec<f64> = by
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_f64().unwrap())
-        .collect();
+    let n: Vec<f64> = by.list().iter().map(|x| x.real()).collect();
     if n.is_empty() {
         return p;
     }
@@ -61,8 +56,8 @@ fn the_first_view_is_the_drawing() {
             .collect();
         let [right, up] = [0, 1].map(|i| vector(&scene["view"][i]));
         let first = &scene["moves"][0];
-        let pose = &first["poses"][first["start"].as_u64().unwrap() as usize];
-        let joints = scene["joints"].as_array().unwrap().iter();
+        let pose = &first["poses"][first["start"].whole() as usize];
+        let joints = scene["joints"].list().iter();
         // the marks of points are no joints
         let joints = joints
             .filter(|j| !j["turned"].as_bool().unwrap())
@@ -71,11 +66,11 @@ fn the_first_view_is_the_drawing() {
         drawn.reverse();
         assert!(drawn.len() > 3, "{name}");
         for (joint, at) in joints.zip(&drawn) {
-            let link = joint["links"][0].as_u64().unwrap() as usize;
+            let link = joint["links"][0].whole() as usize;
             let p = carried(&pose[link], vector(&joint["at"]));
             let on = [dot(right, p), -dot(up, p)];
             for i in 0..2 {
-                let off = on[i] + scene["origin"][i].as_f64().unwrap() - at[i];
+                let off = on[i] + scene["origin"][i].real() - at[i];
                 assert!(off.abs() < 0.05, "{name}: {off}");
             }
         }
@@ -87,12 +82,12 @@ fn hinges_hold_together_in_every_pose() {
     for name in ["bennett", "jansen-leg", "peaucellier", "rssr"] {
         let (_, scene) = page(name);
         let (mut held, mut far) = (0, 0.0f64);
-        for motion in scene["moves"].as_array().unwrap() {
-            for pose in motion["poses"].as_array().unwrap() {
-                for joint in scene["joints"].as_array().unwrap() {
+        for motion in scene["moves"].list() {
+            for pose in motion["poses"].list() {
+                for joint in scene["joints"].list() {
                     let at = vector(&joint["at"]);
                     let [a, b] = [0, 1].map(|i| {
-                        let link = joint["links"][i].as_u64().unwrap() as usize;
+                        let link = joint["links"][i].whole() as usize;
                         carried(&pose[link], at)
                     });
                     held += 1;
@@ -109,9 +104,8 @@ fn hinges_hold_together_in_every_pose() {
 #[test]
 fn what_there_is_to_see_is_offered() {
     let names = |scene: &Value, what: &str| -> Vec<String> {
-        let all = scene[what].as_array().unwrap().iter();
-        all.map(|m| m["name"].as_str().unwrap().to_owned())
-            .collect()
+        let all = scene[what].list().iter();
+        all.map(|m| m["name"].word().to_owned()).collect()
     };
     let (_, rssr) = page("rssr");
     let moves = names(&rssr, "moves");

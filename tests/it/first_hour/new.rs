@@ -1,7 +1,7 @@
 //! `new` and `list`: templates of every built-in mechanism.
 
 use super::run;
-use crate::common::{json, out};
+use crate::common::{has, json, out};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
@@ -50,7 +50,7 @@ fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
         let path = folder.path().join(format!("my {from}.toml"));
         let path = path.to_str().unwrap();
         let said = out(&["new", path, "--from", from]);
-        assert!(said.contains("ozols check"), "{said}");
+        has(&said, "ozols check");
         let (code, _, err) = run(&["check", path]);
         assert_eq!((code, err.as_str()), (Some(0), ""), "{from}");
         let analysis = |file: &str| {
@@ -72,10 +72,8 @@ fn a_new_file_never_takes_the_place_of_another_unasked() {
     fs::write(&path, "mine").unwrap();
     let (code, stdout, err) = run(&["new", file]);
     assert_eq!((code, stdout.as_str()), (Some(2), ""));
-    assert!(
-        err.contains("is there already") && err.contains("--force"),
-        "{err}"
-    );
+    has(&err, "is there already");
+    has(&err, "--force");
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert_eq!(out(&["new", file, "--force", "--quiet"]), "");
     assert!(
@@ -102,7 +100,7 @@ fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
     for name in ["mine", "mine.json"] {
         let (code, _, err) = run(&["new", folder.path().join(name).to_str().unwrap()]);
         assert_eq!(code, Some(2));
-        assert!(err.contains("mine.toml"), "{err}");
+        has(&err, "mine.toml");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
@@ -148,14 +146,9 @@ fn the_list_is_by_family_and_can_be_narrowed() {
     assert_eq!(rows(&["list", "BENNETT", "rigid"]), ["bennett-perturbed"]);
     assert!(rows(&["list", "robot"]).contains(&"delta".to_owned()));
     let line = out(&["list", "four-bar"]);
-    assert!(
-        line.contains("Planar crank-rocker four-bar as a spatial mechanism"),
-        "{line}"
-    );
+    has(&line, "Planar crank-rocker four-bar as a spatial mechanism");
     let (code, stdout, err) = run(&["list", "benett"]);
     assert_eq!((code, stdout.as_str()), (Some(1), ""));
-    assert!(
-        err.contains("benett") && err.contains("did you mean bennett"),
-        "{err}"
-    );
+    has(&err, "benett");
+    has(&err, "did you mean bennett");
 }

@@ -3,7 +3,7 @@
 mod ranked;
 mod refused;
 
-use crate::common::{json, out};
+use crate::common::{Json, has, has_all, json, out, words};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
@@ -64,18 +64,11 @@ fn effort(list: &[JointReaction]) -> f64 {
 #[test]
 fn the_drive_bears_what_the_grip_asks() {
     let grip = json(&["grip", "lever-gripper", "--format", "json"]);
-    for row in grip["diameters"].as_array().unwrap() {
+    for row in grip["diameters"].list() {
         let asked = number(&row["load"]["drive_effort"]);
         let diameter = (number(&row["diameter"]) * 1e3).round().to_string();
         let run = |more: &[&str]| {
-            let args = [
-                "statics",
-                "lever-gripper",
-                "--state",
-                "clamped",
-                "--format",
-                "json",
-            ];
+            let args = words("statics lever-gripper --state clamped --format json");
             let args: Vec<&str> = args
                 .iter()
                 .chain(&["--diameter", &diameter])
@@ -85,7 +78,7 @@ fn the_drive_bears_what_the_grip_asks() {
             json(&args)
         };
         let planar = run(&[]);
-        let found = planar["positions"][0]["reactions"].as_array().unwrap();
+        let found = planar["positions"][0]["reactions"].list();
         let force = found.iter().find_map(|r| r["effort"].as_f64()).unwrap();
         assert!(
             (force - asked).abs() < 1e-9 * asked,
@@ -93,7 +86,7 @@ fn the_drive_bears_what_the_grip_asks() {
         );
         assert_eq!(number(&planar["grip"]["drive_effort"]), asked);
         let spatial = run(&["--spatial"]);
-        let found = spatial["reactions"].as_array().unwrap();
+        let found = spatial["reactions"].list();
         let force = found
             .iter()
             .find_map(|r| r["drive"]["effort"].as_f64())
@@ -307,27 +300,20 @@ fn links_feel_the_case() {
 #[test]
 fn statics_say_which_loads_came_from_the_grip() {
     let said = out(&["statics", "lever-gripper", "--state", "clamped"]);
-    for part in [
-        "the jaws bear the contact forces of the worst case",
-        "D = 50 mm, acceleration 5 m/s² along",
-        "safety factor 1.5",
-        "1-a far",
-        "--spatial takes them",
-    ] {
-        assert!(said.contains(part), "no {part:?} in: {said}");
-    }
+    has_all(
+        &said,
+        &[
+            "the jaws bear the contact forces of the worst case",
+            "D = 50 mm, acceleration 5 m/s² along",
+            "safety factor 1.5",
+            "1-a far",
+            "--spatial takes them",
+        ],
+    );
     // Empty jaws bear nothing.
     let free = out(&["statics", "lever-gripper"]);
-    assert!(free.contains("states no loads"), "{free}");
-    let csv = out(&[
-        "statics",
-        "lever-gripper",
-        "--state",
-        "clamped",
-        "--spatial",
-        "--format",
-        "csv",
-    ]);
+    has(&free, "states no loads");
+    let csv = out("statics lever-gripper --state clamped --spatial --format csv");
     assert!(
         csv.starts_with("kind,joint,type") && !csv.contains("1-a far"),
         "{csv}"

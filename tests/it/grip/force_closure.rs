@@ -2,7 +2,7 @@
 
 mod programme;
 
-use crate::common::{built_in, json, near, run_on};
+use crate::common::{Json, built_in, has, json, near, run_on};
 use ozols::grip::clamped_part::{ClampedPart, PartError};
 use ozols::grip::force_closure::{ClosureShares, ForceClosure, closure, shares};
 use ozols::model::mechanism::StateId;
@@ -324,7 +324,7 @@ fn the_share_of_samples_falls_with_the_tolerance() {
     assert_eq!(small["force_closed_share"], 1.0);
     assert_eq!(small["form_closed"], 0);
     let large = share("0.006");
-    let of = large["force_closed_share"].as_f64().unwrap();
+    let of = large["force_closed_share"].real();
     assert!(of > 0.0 && of < 1.0, "{large}");
     assert_eq!(large, share("0.006"));
 }
@@ -386,11 +386,9 @@ fn the_command_tells_both_closures_of_any_clamped_mechanism() {
         &[],
     );
     assert_eq!(code, Some(1), "{errors}");
-    assert!(
-        said.contains(
-            "force closure: no, nothing resists moment about y, moment about -y, force along x"
-        ),
-        "{said}"
+    has(
+        &said,
+        "force closure: no, nothing resists moment about y, moment about -y, force along x",
     );
     let v = json(&["grip", "gripper-10-loaded", "--closure", "--format", "json"]);
     assert_eq!(v["object"], "a");
@@ -400,21 +398,16 @@ fn the_command_tells_both_closures_of_any_clamped_mechanism() {
     assert!(v["samples"].is_null());
     // A grip states friction and length of its part for the contacts that it names.
     let v = json(&["grip", "lever-gripper", "--closure", "--format", "json"]);
-    assert_eq!(v["contacts"].as_array().unwrap().len(), 4);
+    assert_eq!(v["contacts"].list().len(), 4);
     assert_eq!(v["contacts"][0]["friction"], 0.2);
-    near(v["contacts"][0]["reach"].as_f64().unwrap(), 0.06, 1e-12);
+    near(v["contacts"][0]["reach"].real(), 0.06, 1e-12);
     assert_eq!(v["force_closure"]["closed"], true);
-    let open = v["form_closure"]["along"].as_array().unwrap();
-    let open = open
-        .iter()
-        .filter(|l| l["resisted"].as_f64().unwrap() < 1e-6);
+    let open = v["form_closure"]["along"].list();
+    let open = open.iter().filter(|l| l["resisted"].real() < 1e-6);
     // A round part slides along itself and turns about itself.
     for load in open {
         let (f, m) = (&load["force"][2], &load["moment"][2]);
-        assert!(
-            f.as_f64().unwrap() != 0.0 || m.as_f64().unwrap() != 0.0,
-            "{load}"
-        );
+        assert!(f.real() != 0.0 || m.real() != 0.0, "{load}");
     }
 }
 

@@ -1,11 +1,11 @@
 //! The clamping force along a motion.
 
-use crate::common::{json, near, ozols, text};
+use crate::common::{Json, has, json, near, ozols, text};
 use serde_json::Value;
 use std::fs;
 
 fn number(v: &Value) -> f64 {
-    v.as_f64().unwrap()
+    v.real()
 }
 
 fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
@@ -28,11 +28,11 @@ fn every_step_has_its_own_least_force() {
     let (code, said, errors) = along(table, &["--format", "json"]);
     assert_eq!(code, Some(0), "{errors}");
     let value: Value = serde_json::from_str(&said).unwrap();
-    let steps = value["motion"]["steps"].as_array().unwrap();
+    let steps = value["motion"]["steps"].list();
     assert_eq!(steps.len(), 4);
     // The hardest case of the file is harder than any of these at its diameter.
     for step in steps {
-        let rows = value["diameters"].as_array().unwrap();
+        let rows = value["diameters"].list();
         let same = |r: &&Value| (number(&r["diameter"]) - number(&step["diameter"])).abs() < 1e-9;
         let load = &rows.iter().find(same).unwrap()["load"];
         assert_eq!(step["verdict"], "can hold");
@@ -54,7 +54,7 @@ fn every_step_has_its_own_least_force() {
     let (_, said, errors) =
         crate::common::run_on("grip", "alone.toml", &alone, &["--format", "json"]);
     let alone: Value = serde_json::from_str(&said).expect(&errors);
-    let rows = alone["diameters"].as_array().unwrap();
+    let rows = alone["diameters"].list();
     let row = rows
         .iter()
         .find(|r| (number(&r["diameter"]) - 0.04).abs() < 1e-9)
@@ -77,9 +77,9 @@ fn attitudes_come_with_the_motion() {
     let table = "ax,ay,az,gx,gy,gz\n0,0,0,0,-9.81,0\n0,0,0,0,0,-9.81\n";
     let (code, said, errors) = along(table, &[]);
     assert_eq!(code, Some(0), "{errors}");
-    assert!(
-        said.contains("Along the motion, 2 steps: can hold at every step, with"),
-        "{said}"
+    has(
+        &said,
+        "Along the motion, 2 steps: can hold at every step, with",
     );
     let (_, said, _) = along(table, &["--format", "json"]);
     let value: Value = serde_json::from_str(&said).unwrap();

@@ -1,7 +1,7 @@
 //! The curves of figures 2 to 5 of `[Pavlenko & Godunko 2010]`, and what the paper found on them.
 
 use super::lever;
-use crate::common::{built_in, json, near, out};
+use crate::common::{Json, built_in, has, has_all, json, near, out};
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::Arms;
 use ozols::model::claim::{Claim, Topic};
@@ -347,14 +347,13 @@ fn what_the_curves_refute_is_told_with_what_is_right() {
 #[test]
 fn claims_are_told_of_the_gripper_of_the_paper_alone() {
     let text = out(&["grip", "lever-gripper"]);
-    assert!(
-        text.contains(
-            "17 claims, 10 confirmed, 4 refuted, 3 refuted if the scan of the text is right"
-        ) && text.contains("right: l1 alone does"),
-        "{text}"
+    has(
+        &text,
+        "17 claims, 10 confirmed, 4 refuted, 3 refuted if the scan of the text is right",
     );
+    has(&text, "right: l1 alone does");
     let value = json(&["grip", "lever-gripper", "--format", "json"]);
-    assert_eq!(value["claims"].as_array().unwrap().len(), 17);
+    assert_eq!(value["claims"].list().len(), 17);
     assert_eq!(value["claims"][0]["right"], serde_json::Value::Null);
     assert_eq!(value["claims"][13]["holds"], false);
     assert!(value["claims"][13]["right"].is_string());
@@ -422,9 +421,7 @@ fn figures_are_charts_of_any_gripper() {
 #[test]
 fn parts_of_the_arms_are_in_the_text() {
     let text = out(&["grip", "lever-gripper"]);
-    for head in ["l11, mm", "l12, mm", "l21, mm", "l22, mm"] {
-        assert!(text.contains(head), "{head}: {text}");
-    }
+    has_all(&text, &["l11, mm", "l12, mm", "l21, mm", "l22, mm"]);
     // l11 = l21 = 100 cos 30°, l12 = 20 tan 30° at D = 40.
     let row = text.lines().filter(|l| l.trim_start().starts_with("40 "));
     let found = row.map(|l| l.matches("86.6").count() == 2 && l.contains("11.55"));

@@ -1,6 +1,6 @@
 //! The rows that are enough for the rank of J: against all rows written out, by other primes, and by what is known of mechanisms.
 
-use crate::common::{built_in, json, out, rank_dense};
+use crate::common::{Json, built_in, has, json, out, rank_dense};
 use crate::search::twin;
 use ozols::builtin;
 use ozols::closure::Closure;
@@ -63,23 +63,12 @@ fn built_in_mechanisms_need_no_more() {
 /// and out of it one, for that turn; every redundant constraint is out of the plane.
 #[test]
 fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
-    let found = json(&[
-        "analyze",
-        "gripper-10",
-        "--state",
-        "free",
-        "--format",
-        "json",
-    ]);
-    let parts = found["states"][0]["least_rows"].as_array().unwrap();
+    let found = json("analyze gripper-10 --state free --format json");
+    let parts = found["states"][0]["least_rows"].list();
     let figures = |i: usize| {
         let p = &parts[i];
-        let of = ["rows", "rows_in_all", "rank", "redundant"].map(|k| p[k].as_u64().unwrap());
-        (
-            p["motions"].as_str().unwrap(),
-            p["of"].as_str().unwrap(),
-            of,
-        )
+        let of = ["rows", "rows_in_all", "rank", "redundant"].map(|k| p[k].whole());
+        (p["motions"].word(), p["of"].word(), of)
     };
     assert_eq!(figures(0), ("in plane", "z", [12, 12, 12, 0]));
     assert_eq!(figures(1), ("out of plane", "z", [4, 12, 1, 11]));
@@ -178,10 +167,7 @@ fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
     let found = check(&m, StateId::FREE);
     assert_eq!(found.rows(), 3);
     let words = found.words(&m, |c| c.to_string());
-    assert!(
-        words.contains("all joints move out of a plane with normal z alone"),
-        "{words}"
-    );
+    has(&words, "all joints move out of a plane with normal z alone");
 }
 
 /// What self-stresses leave open in the reactions is what rows say: where nothing is redundant in the plane, the forces across
@@ -198,7 +184,7 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
         "scissor-lift-3",
     ] {
         let analysis = json(&["analyze", name, "--state", "free", "--format", "json"]);
-        let parts = analysis["states"][0]["least_rows"].as_array().unwrap();
+        let parts = analysis["states"][0]["least_rows"].list();
         let args = [
             "statics",
             name,
@@ -215,12 +201,12 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
             parts.iter().filter(|p| p["motions"] == "group").count(),
             "{name}"
         );
-        for r in reactions["reactions"].as_array().unwrap() {
+        for r in reactions["reactions"].list() {
             let open: Vec<&str> = r["open"]
                 .as_array()
                 .into_iter()
                 .flatten()
-                .map(|o| o.as_str().unwrap())
+                .map(|o| o.word())
                 .collect();
             if r["type"] == "revolute" {
                 seen += 1;
@@ -230,24 +216,12 @@ fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
     }
     assert!(seen > 40, "{seen}");
     let text = out(&["statics", "four-bar", "--spatial"]);
-    assert!(
-        text.contains("Left open by the self-stresses: Fz, Mx and My of "),
-        "{text}"
-    );
-    assert!(
-        text.contains("; all else is the same in the whole family"),
-        "{text}"
-    );
+    has(&text, "Left open by the self-stresses: Fz, Mx and My of ");
+    has(&text, "; all else is the same in the whole family");
     // A third rod is redundant in the plane.
-    let rods = json(&[
-        "statics",
-        "parallelogram-3-rods",
-        "--spatial",
-        "--format",
-        "json",
-    ]);
+    let rods = json("statics parallelogram-3-rods --spatial --format json");
     let mut by_count: BTreeMap<usize, usize> = BTreeMap::new();
-    for r in rods["reactions"].as_array().unwrap() {
+    for r in rods["reactions"].list() {
         *by_count
             .entry(r["open"].as_array().map_or(0, Vec::len))
             .or_default() += 1;
@@ -286,15 +260,9 @@ fn screws_are_not_called_turns() {
         check(&m, StateId::FREE).words(&m, |c| c.to_string())
     };
     let parallel = words(&[[0, 0], [3, 0], [4, 4], [0, 5]]);
-    assert!(
-        parallel.contains("screws of one pitch and slides across them (3)"),
-        "{parallel}"
-    );
+    has(&parallel, "screws of one pitch and slides across them (3)");
     let coaxial = words(&[[2, 1], [2, 1]]);
-    assert!(
-        coaxial.contains("one screw (1), so 1 row per contour does"),
-        "{coaxial}"
-    );
+    has(&coaxial, "one screw (1), so 1 row per contour does");
 }
 
 /// What is said of all joints is true of all: an arm on the coupler of a four-bar is in no contour, and in no plane with it.

@@ -1,6 +1,6 @@
 //! Screws by their lead or their pitch: π is no number that is exact here, and nothing that has it is called exact.
 
-use crate::common::{changed, json, out, run_on};
+use crate::common::{changed, has, json, out, run_on};
 
 fn jack(pitch: &str) -> String {
     let own = out(&["show", "screw-jack"]);
@@ -31,7 +31,7 @@ fn what_has_pi_is_not_called_exact() {
     assert!(of("pitch = \"4/5\"").contains("exact geometry"));
     let said = of("lead = 5");
     assert!(!said.contains("exact geometry"), "{said}");
-    assert!(said.contains("pi to 40 decimals"), "{said}");
+    has(&said, "pi to 40 decimals");
     let state = analysed(&jack("lead = 5"))["states"][0].clone();
     assert!(state["choice"].to_string().contains("5/(2*pi)"), "{state}");
     assert_ne!(state["certainty_kind"], "proven");
@@ -60,7 +60,7 @@ fn ratios_of_leads_are_exact() {
 fn a_written_pitch_reads_back() {
     let (code, said, err) = run_on("export", "jack.toml", &jack("lead = -5"), &["--to", "toml"]);
     assert_eq!(code, Some(0), "{err}");
-    assert!(said.contains("pitch = \"-5/(2*pi)\""), "{said}");
+    has(&said, "pitch = \"-5/(2*pi)\"");
     assert_eq!(
         analysed(&said)["states"],
         analysed(&jack("lead = -5"))["states"]
@@ -88,7 +88,7 @@ fn what_is_wrong_with_a_screw_is_told() {
     );
     let (code, _, err) = run_on("check", "four.toml", &hinge, &[]);
     assert_eq!(code, Some(2));
-    assert!(err.contains("takes no lead"), "{err}");
+    has(&err, "takes no lead");
     // in degrees it is an angle, and still exact
     let turned = changed(
         &jack("lead = 5"),

@@ -1,6 +1,6 @@
 //! Variants in other poses of the present motion.
 
-use crate::common::{json, out, ozols};
+use crate::common::{Json, has_all, json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
@@ -19,8 +19,8 @@ const BALANCE: [&str; 8] = [
 ];
 
 fn changes(v: &Value) -> Vec<(String, String)> {
-    let word = |x: &Value| x.as_str().unwrap().to_owned();
-    let list = v["changes"].as_array().unwrap();
+    let word = |x: &Value| x.word().to_owned();
+    let list = v["changes"].list();
     list.iter()
         .map(|c| (word(&c["joint"]), word(&c["to"])))
         .collect()
@@ -32,7 +32,7 @@ fn changes(v: &Value) -> Vec<(String, String)> {
 fn variants_that_are_right_in_the_pose_of_the_file_only_are_marked() {
     let v = json(&[&BALANCE[..], &["--poses", "4"]].concat());
     assert_eq!(v["poses"], serde_json::json!({"asked": 4, "reached": 4}));
-    let variants = v["variants"].as_array().unwrap();
+    let variants = v["variants"].list();
     assert!(variants.iter().all(|x| x["lucky"].is_boolean()));
     let lucky: Vec<&Value> = variants.iter().filter(|x| x["lucky"] == true).collect();
     assert_eq!((lucky.len(), &v["variants_lucky"]), (3, &3.into()));
@@ -86,7 +86,7 @@ fn which_link_has_which_pin_matters() {
     let args = ["--format", "json", "--all", "--poses", "4"];
     let v = json(&[&["search", path.to_str().unwrap()][..], &args].concat());
     let lucky = |joint: &str| {
-        let list = v["variants"].as_array().unwrap().iter();
+        let list = v["variants"].list().iter();
         list.filter(|x| x["lucky"] == true)
             .filter(|x| changes(x).contains(&(joint.to_owned(), "universal".to_owned())))
             .count()
@@ -96,18 +96,11 @@ fn which_link_has_which_pin_matters() {
 
 #[test]
 fn marked_variants_are_said_to_be_of_this_pose_only() {
-    let marked = out(&[
-        "search",
-        "roberval-balance",
-        "--pose-only",
-        "--poses",
-        "2",
-        "--top",
-        "20",
-    ]);
-    for part in ["14 !", "! 14: in this pose only", "2 ways instead of 1"] {
-        assert!(marked.contains(part), "no {part:?} in {marked}");
-    }
+    let marked = out("search roberval-balance --pose-only --poses 2 --top 20");
+    has_all(
+        &marked,
+        &["14 !", "! 14: in this pose only", "2 ways instead of 1"],
+    );
 }
 
 #[test]
@@ -115,27 +108,14 @@ fn poses_do_not_depend_on_threads_and_need_a_motion() {
     let run =
         |threads: &str| out(&[&BALANCE[..], &["--poses", "3", "--threads", threads]].concat());
     assert!(run("1") == run("2"));
-    let o = ozols(&[
-        "search",
-        "bennett-perturbed",
-        "--poses",
-        "2",
-        "--format",
-        "json",
-    ])
-    .output()
-    .unwrap();
+    let o = ozols("search bennett-perturbed --poses 2 --format json")
+        .output()
+        .unwrap();
     let said = String::from_utf8(o.stderr).unwrap();
     assert!(said.starts_with("warning: no other pose"), "{said}");
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["poses"]["reached"], 0);
-    assert!(
-        v["variants"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .all(|x| x["lucky"].is_null())
-    );
+    assert!(v["variants"].list().iter().all(|x| x["lucky"].is_null()));
     let v = json(&["search", "four-bar", "--format", "json"]);
     assert!(v["poses"].is_null() && v["variants"][0]["lucky"].is_null());
 }

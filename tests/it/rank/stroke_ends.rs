@@ -1,6 +1,6 @@
 //! Singular poses near the ends of a stroke.
 
-use crate::common::json;
+use crate::common::{Json, json};
 
 /// A singular pose is found wherever the stroke ends: the parallelogram is flat at 90° to either side of the pose of the file.
 #[test]
@@ -39,14 +39,11 @@ fn singular_poses_near_an_end_are_found() {
         ("95deg:170deg:5", 0),
     ] {
         let stroke = format!("--stroke={stroke}");
-        let found = json(&[
-            "analyze",
-            path.to_str().unwrap(),
-            &stroke,
-            "--format",
-            "json",
-        ]);
-        let changes = found["stroke"]["changes"].as_array().unwrap();
+        let found = json(&format!(
+            "analyze {} {stroke} --format json",
+            path.display()
+        ));
+        let changes = found["stroke"]["changes"].list();
         assert_eq!(changes.len(), times, "{stroke}: {changes:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! Ranking of geared mechanisms: the fast scores, the plain ones, the floor, and the program.
 
 use super::{both_ways, cheapest, near, sampled, search};
-use crate::common::{built_in, changed, run_on};
+use crate::common::{built_in, changed, has, run_on};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
@@ -115,7 +115,7 @@ fn the_program_ranks_geared_grippers_by_force() {
     assert_eq!(first["redundant"], 0, "{first}");
     let (code, said, complaint) = run_on("search", "geared.toml", &text, &["--top", "3"]);
     assert_eq!(code, Some(0), "{complaint}");
-    assert!(said.contains("force"), "{said}");
+    has(&said, "force");
     let (code, said, complaint) = run_on("report", "geared.toml", &text, &[]);
     assert!(
         !said.contains("are coupled") && !complaint.contains("are coupled"),

@@ -1,6 +1,7 @@
 //! Why a variant is not where its cost would put it, by hand; and limits either way.
 
 use super::{TERMS, loaded, ranked, ranking};
+use crate::common::has;
 use ozols::model::ranking::{Limit, Order, Term};
 use ozols::score::outcome::ranking::RankedPool;
 
@@ -30,7 +31,7 @@ fn the_reason_is_the_term_that_speaks_most_for_a_variant() {
         let best = gains.iter().position(|g| *g == most).unwrap();
         let words = ["peak moment ", "peak force ", "cost "][best];
         let reason = reason.unwrap();
-        assert!(reason.contains(&format!("by cost: {words}")), "{reason}");
+        has(&reason, &format!("by cost: {words}"));
         told += 1;
     }
     assert!(told > 50 && none > 0, "{told} {none}");

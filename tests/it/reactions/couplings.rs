@@ -4,7 +4,7 @@
 mod random;
 mod twin;
 
-use crate::common::{built_in, changed, json, near, out, run_on};
+use crate::common::{Json, built_in, changed, has, has_all, json, near, out, run_on};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::loads::{ExternalForce, ExternalMoment, Loads};
@@ -316,13 +316,14 @@ fn the_drive_does_what_the_loads_take_at_every_pose() {
 #[test]
 fn the_program_tells_what_a_coupling_passes() {
     let said = out(&["statics", "rack-gripper"]);
-    for wanted in [
-        "Coupling 0-1 ~ 0-2 passes at most",
-        "Drive 0-1 holds tz: from -2",
-        "pressure angle and friction are left out",
-    ] {
-        assert!(said.contains(wanted), "{wanted}\n{said}");
-    }
+    has_all(
+        &said,
+        &[
+            "Coupling 0-1 ~ 0-2 passes at most",
+            "Drive 0-1 holds tz: from -2",
+            "pressure angle and friction are left out",
+        ],
+    );
     let text = changed(
         builtin::text("rack-gripper").unwrap(),
         "stroke = { from = 0, to = 8, steps = 8 }\n",
@@ -334,10 +335,9 @@ fn the_program_tells_what_a_coupling_passes() {
         .lines()
         .find(|l| l.trim_start().starts_with("0-1 ~ 0-2"))
         .unwrap();
-    assert!(
-        row.contains(" N ") && row.contains("N·m") && row.contains("114.29 N"),
-        "{row}"
-    );
+    has(row, " N ");
+    has(row, "N·m");
+    has(row, "114.29 N");
     let (_, csv, _) = run_on("statics", "rack.toml", &text, &["--format", "csv"]);
     let lines: Vec<Vec<&str>> = csv.lines().map(|l| l.split(',').collect()).collect();
     let head = &lines[0];
@@ -369,15 +369,9 @@ fn the_program_tells_what_a_coupling_passes() {
         (&c["ends"][1]["unit"], &c["gear"], &c["open"]),
         (&"N·m".into(), &true.into(), &false.into())
     );
-    near(c["teeth"]["magnitude"].as_f64().unwrap(), 800.0 / 7.0, 1e-9);
+    near(c["teeth"]["magnitude"].real(), 800.0 / 7.0, 1e-9);
     assert_eq!(
-        json(&[
-            "statics",
-            "gripper-10-loaded",
-            "--spatial",
-            "--format",
-            "json"
-        ])["couplings"],
+        json("statics gripper-10-loaded --spatial --format json")["couplings"],
         serde_json::json!([])
     );
 }
@@ -394,10 +388,7 @@ fn gears_that_cannot_mesh_are_told_of() {
     );
     let (code, said, _) = run_on("statics", "bevel.toml", &bevel, &["--spatial"]);
     assert_eq!(code, Some(0), "{said}");
-    assert!(
-        said.contains("Where the teeth of 0-1 ~ 0-2 are does not follow"),
-        "{said}"
-    );
+    has(&said, "Where the teeth of 0-1 ~ 0-2 are does not follow");
     // A pinion that may shift across is pushed aside by its teeth.
     let loose = changed(
         text,
@@ -420,8 +411,6 @@ fn groups_of_coupled_joints_are_refused_with_a_way_on() {
         let o = crate::common::run(&[&["statics", "geared-gripper"][..], more].concat());
         assert_eq!(o.status.code(), Some(2), "{more:?}");
         let said = crate::common::text(&o.stderr);
-        for wanted in ["joints 0-1 ~ 0-4 are coupled", "--spatial"] {
-            assert!(said.contains(wanted), "{said}");
-        }
+        has_all(&said, &["joints 0-1 ~ 0-4 are coupled", "--spatial"]);
     }
 }

@@ -1,6 +1,6 @@
 //! Reactions over a stroke with inertia forces: in the plane and in space, and against differences of energy.
 
-use crate::common::{built_in, json, out, ozols};
+use crate::common::{Json, built_in, has, json, out, ozols, words};
 use ozols::geom::expr::Expr;
 use ozols::model::joint_type::Freedom;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
@@ -231,55 +231,28 @@ fn an_inertia_for_a_plane_is_refused_in_space() {
 
 #[test]
 fn the_command_goes_over_the_stroke() {
-    let args = [
-        "statics",
-        "gripper-10-loaded",
-        "--spatial",
-        "--stroke",
-        "-0.3:0.3:4",
-    ];
+    let args = words("statics gripper-10-loaded --spatial --stroke -0.3:0.3:4");
     let said = out(&args);
-    assert!(
-        said.contains("greatest joint reactions over 5 poses"),
-        "{said}"
-    );
-    assert!(said.contains("Drive 0-1 holds tz: from "), "{said}");
+    has(&said, "greatest joint reactions over 5 poses");
+    has(&said, "Drive 0-1 holds tz: from ");
     let with = |more: &[&'static str]| args.iter().chain(more).copied().collect::<Vec<_>>();
     let v = json(&with(&["--format", "json"]));
-    assert_eq!(v["positions"].as_array().unwrap().len(), 5);
+    assert_eq!(v["positions"].list().len(), 5);
     assert_eq!(v["positions"][4]["drive"], 0.3);
     let csv = out(&with(&["--format", "csv"]));
     assert_eq!(csv.lines().count(), 1 + 5 * 13);
     // The middle is the pose of the file.
-    let one = json(&[
-        "statics",
-        "gripper-10-loaded",
-        "--spatial",
-        "--format",
-        "json",
-    ]);
-    let pairs = one["reactions"].as_array().unwrap().iter();
-    for (a, b) in pairs.zip(v["positions"][2]["reactions"].as_array().unwrap()) {
-        let (x, y) = (
-            a["force_magnitude"].as_f64().unwrap(),
-            b["force_magnitude"].as_f64().unwrap(),
-        );
+    let one = json("statics gripper-10-loaded --spatial --format json");
+    let pairs = one["reactions"].list().iter();
+    for (a, b) in pairs.zip(v["positions"][2]["reactions"].list()) {
+        let (x, y) = (a["force_magnitude"].real(), b["force_magnitude"].real());
         assert!((x - y).abs() < 1e-9 * x.max(1.0));
     }
     // Farther than it goes.
-    let o = ozols(&[
-        "statics",
-        "gripper-10-loaded",
-        "--spatial",
-        "--stroke",
-        "0:1000:4",
-    ])
-    .output()
-    .unwrap();
+    let o = ozols("statics gripper-10-loaded --spatial --stroke 0:1000:4")
+        .output()
+        .unwrap();
     assert_eq!(o.status.code(), Some(1));
     let said = String::from_utf8(o.stdout).unwrap();
-    assert!(
-        said.contains("The stroke could not be followed to"),
-        "{said}"
-    );
+    has(&said, "The stroke could not be followed to");
 }

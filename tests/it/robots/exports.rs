@@ -161,14 +161,10 @@ proptest! {
 fn searches_alike() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("g.toml");
-    out(&[
-        "export",
-        "gripper-10",
-        "--to",
-        "toml",
-        "-o",
-        file.to_str().unwrap(),
-    ]);
+    out(&format!(
+        "export gripper-10 --to toml -o {}",
+        file.display()
+    ));
     let count = |f: &str| out(&["search", f, "--top", "3", "--format", "json"]);
     assert_eq!(count(file.to_str().unwrap()), count("gripper-10"));
 }

@@ -1,6 +1,6 @@
 //! Robots: releases as one would build them, one cylindrical joint and one ball a loop, away from what bears a wheel.
 
-use crate::common::run_on;
+use crate::common::{Json, run_on};
 use crate::robots::mjcf::mjcf;
 use itertools::Itertools;
 use serde_json::Value;
@@ -9,9 +9,9 @@ use serde_json::Value;
 fn idea(name: &str, text: &str) -> Vec<(String, bool)> {
     let (_, out, err) = run_on("lint", name, text, &["--format", "json"]);
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
-    let all = v["files"][0]["cheapest"].as_array().unwrap().iter();
+    let all = v["files"][0]["cheapest"].list().iter();
     all.map(|r| {
-        let words = r.as_str().unwrap().strip_prefix("let ").unwrap();
+        let words = r.word().strip_prefix("let ").unwrap();
         let (joint, rest) = words.split_once(' ').unwrap();
         (joint.to_owned(), rest.starts_with("slide"))
     })

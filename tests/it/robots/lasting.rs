@@ -1,6 +1,6 @@
 //! Robots: only what is redundant over the motion is let go; what is so at one pose passes by itself.
 
-use crate::common::run_on;
+use crate::common::{Json, has, has_all, run_on};
 use crate::robots::mjcf::mjcf;
 use serde_json::Value;
 
@@ -37,18 +37,19 @@ fn what_is_redundant_at_one_pose_only_is_a_note() {
     assert_eq!(found["cheapest"], serde_json::json!([]));
     let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
     assert_eq!(code, Some(0));
-    for part in [
-        "nothing is redundant over the motion; 1 redundant constraint",
-        "elsewhere on the motion 0, by 20 closed poses inside the limits",
-        "note: e, row x duplicates",
-        "at this pose only",
-    ] {
-        assert!(out.contains(part), "{part}: {out}");
-    }
+    has_all(
+        &out,
+        &[
+            "nothing is redundant over the motion; 1 redundant constraint",
+            "elsewhere on the motion 0, by 20 closed poses inside the limits",
+            "note: e, row x duplicates",
+            "at this pose only",
+        ],
+    );
     assert!(!out.contains("ozols fix"), "{out}");
     let (code, out, told) = run_on("fix", "m.xml", &text, &[]);
     assert_eq!((code, out.as_str()), (Some(0), text.as_str()), "{told}");
-    assert!(told.contains("at this pose only"), "{told}");
+    has(&told, "at this pose only");
 }
 
 #[test]
@@ -60,15 +61,15 @@ fn only_what_lasts_is_let_go() {
         (&found["redundant"], &found["redundant_over_motion"]),
         (&2.into(), &1.into())
     );
-    let lasts: Vec<bool> = (found["findings"].as_array().unwrap().iter())
+    let lasts: Vec<bool> = (found["findings"].list().iter())
         .map(|f| f["lasts"].as_bool().unwrap())
         .collect();
     assert_eq!(lasts, [true, false]);
     let (code, out, told) = run_on("fix", "m.xml", &text, &[]);
     assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("1 release\n"), "{told}");
-    assert!(told.contains("slide along z"), "{told}");
-    assert!(told.contains("1 redundant at this pose only"), "{told}");
+    has(&told, "1 release\n");
+    has(&told, "slide along z");
+    has(&told, "1 redundant at this pose only");
     let (code, found) = json(&out);
     assert_eq!(code, Some(0), "{found}");
 }
@@ -83,11 +84,11 @@ fn poses_are_inside_the_limits() {
         let (code, found) = json(&in_line("type='ball'", range));
         assert_eq!(code, Some(0), "{range}: {found}");
         assert_eq!(found["redundant_over_motion"], 0, "{range}");
-        let over = found["over_motion"].as_str().unwrap();
+        let over = found["over_motion"].word();
         assert!(over.contains("20 closed poses"), "{range}: {over}");
         let outside = range.contains("40");
         assert_eq!(over.contains("inside the limits"), !outside, "{over}");
-        let told = found["outside_limits"].as_array().unwrap();
+        let told = found["outside_limits"].list();
         assert_eq!(told.len(), usize::from(outside), "{range}: {told:?}");
     }
 }
@@ -121,8 +122,8 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
         (&4.into(), &2.into()),
         "{found}"
     );
-    let cheapest: Vec<&str> = (found["cheapest"].as_array().unwrap().iter())
-        .map(|c| c.as_str().unwrap())
+    let cheapest: Vec<&str> = (found["cheapest"].list().iter())
+        .map(|c| c.word())
         .collect();
     assert_eq!(cheapest.len(), 2, "{cheapest:?}");
     for (n, words) in [1, 2].into_iter().zip(&cheapest) {
@@ -132,16 +133,17 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
         ];
         assert!(at.iter().any(|a| words.starts_with(a)), "{words}");
     }
-    assert_eq!(found["outside_limits"].as_array().unwrap().len(), 2);
+    assert_eq!(found["outside_limits"].list().len(), 2);
     let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
-    for part in [
-        "4 redundant constraints",
-        "2 of them at this pose only",
-        "elsewhere on the motion 2, by 20 closed poses (numeric)",
-        "h1 stands at 0 rad, outside its limits 0.698 to 0.873",
-    ] {
-        assert!(out.contains(part), "{part}: {out}");
-    }
+    has_all(
+        &out,
+        &[
+            "4 redundant constraints",
+            "2 of them at this pose only",
+            "elsewhere on the motion 2, by 20 closed poses (numeric)",
+            "h1 stands at 0 rad, outside its limits 0.698 to 0.873",
+        ],
+    );
 }
 
 // An arm of six hinges led by the hand: the mocap body was a part of the frame, and the arm rigid, in line with itself.
@@ -169,6 +171,6 @@ fn mocap_bodies_are_drives() {
         (&0.into(), &6.into())
     );
     let (_, out, told) = run_on("export", "m.xml", &text, &["--to", "toml"]);
-    assert!(told.contains("1 mocap body, as a drive"), "{told}");
-    assert!(out.contains("drive = true"), "{out}");
+    has(&told, "1 mocap body, as a drive");
+    has(&out, "drive = true");
 }

@@ -1,6 +1,6 @@
 //! Robots: what is written has mass wherever engines want some, and next to none where nothing is.
 
-use crate::common::{ozols, run_on, text};
+use crate::common::{has, ozols, run_on, text};
 
 /// The masses and moments of inertia of links whose name is asked for, by the attributes of URDF.
 fn weights(urdf: &str, wanted: impl Fn(&str) -> bool) -> Vec<[f64; 4]> {
@@ -51,7 +51,7 @@ fn what_moves_in_an_exported_urdf_weighs_something() {
     assert_eq!(code, Some(0), "{told}");
     let (code, out, told) = run_on("export", "m.urdf", &out, &["--to", "urdf"]);
     assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("weigh a gram"), "{told}");
+    has(&told, "weigh a gram");
     assert_eq!(weights(&out, |name| name != "base").len(), 6);
     // Joints in series of a mechanism of our own; what stands still needs no mass.
     let words = ["export", "gripper-10", "--variant", "1", "--to"];
@@ -71,6 +71,6 @@ fn what_moves_in_an_exported_urdf_weighs_something() {
         .filter(|l| l.contains("<link name=\"") && l.contains('~'));
     assert!(between.clone().count() > 1, "{sdf}");
     for line in between {
-        assert!(line.contains("<mass>1e-4</mass>"), "{line}");
+        has(line, "<mass>1e-4</mass>");
     }
 }

@@ -1,6 +1,6 @@
 //! MJCF: orientations, defaults, joints in series, equalities, includes.
 
-use crate::common::ozols;
+use crate::common::{has_all, ozols};
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};
 
@@ -104,17 +104,18 @@ fn mjcf_defaults_and_series() {
           <body name='e'><joint name='s1' type='slide'/><joint name='s2' type='ball' pos='0 1 0'/></body>
           <body name='f'><freejoint/></body>
         </worldbody>"));
-    for part in [
-        "id = \"x\"\nlinks = [\"world\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]",
-        "id = \"y\"\nlinks = [\"a\", \"b\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 0, 2]",
-        "id = \"z\"\nlinks = [\"b\", \"c\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 1, 0]",
-        "id = \"w\"\nlinks = [\"c\", \"d\"]\ntype = \"revolute\"\npoint = [1, 0, 3]\naxis = [0, 0, 2]",
-        "id = \"s1\"\nlinks = [\"world\", \"e~1\"]\ntype = \"prismatic\"",
-        "id = \"s2\"\nlinks = [\"e~1\", \"e\"]\ntype = \"spherical\"\npoint = [0, 1, 0]",
-        "type = \"custom\"\nfreedoms = [\"tx\", \"ty\", \"tz\", \"rx\", \"ry\", \"rz\"]",
-    ] {
-        assert!(t.contains(part), "{part}\n{t}");
-    }
+    has_all(
+        &t,
+        &[
+            "id = \"x\"\nlinks = [\"world\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]",
+            "id = \"y\"\nlinks = [\"a\", \"b\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 0, 2]",
+            "id = \"z\"\nlinks = [\"b\", \"c\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 1, 0]",
+            "id = \"w\"\nlinks = [\"c\", \"d\"]\ntype = \"revolute\"\npoint = [1, 0, 3]\naxis = [0, 0, 2]",
+            "id = \"s1\"\nlinks = [\"world\", \"e~1\"]\ntype = \"prismatic\"",
+            "id = \"s2\"\nlinks = [\"e~1\", \"e\"]\ntype = \"spherical\"\npoint = [0, 1, 0]",
+            "type = \"custom\"\nfreedoms = [\"tx\", \"ty\", \"tz\", \"rx\", \"ry\", \"rz\"]",
+        ],
+    );
 }
 
 // A weld of two bodies that hinge on the world in one place: a closed loop of two coaxial hinges, W = 1, σ = 5.

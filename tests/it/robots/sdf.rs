@@ -1,5 +1,6 @@
 //! SDF: places, axes, kinds of joints, nested and static models.
 
+use crate::common::{has, has_all};
 use crate::robots::mjcf::toml_of;
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};
@@ -22,13 +23,14 @@ fn sdf_places_and_axes() {
           <axis><xyz>1 0 0</xyz></axis></joint>
         <joint name='r' type='universal'><parent>b</parent><child>c</child>
           <axis><xyz>1 0 0</xyz></axis><axis2><xyz expressed_in='__model__'>0 0 1</xyz></axis2></joint>"));
-    for part in [
-        "id = \"p\"\nlinks = [\"world\", \"a\"]\ntype = \"revolute\"\npoint = [0, 1, 1]\naxis = [1, 0, 0]",
-        "id = \"q\"\nlinks = [\"a\", \"b\"]\ntype = \"prismatic\"\npoint = [-1, 1, 4]\naxis = [0, 1, 0]",
-        "id = \"r\"\nlinks = [\"b\", \"c\"]\ntype = \"universal\"\npoint = [-1, 1, 3]\naxis = [-1, 0, 0]\nreference = [0, 0, 1]",
-    ] {
-        assert!(t.contains(part), "{part}\n{t}");
-    }
+    has_all(
+        &t,
+        &[
+            "id = \"p\"\nlinks = [\"world\", \"a\"]\ntype = \"revolute\"\npoint = [0, 1, 1]\naxis = [1, 0, 0]",
+            "id = \"q\"\nlinks = [\"a\", \"b\"]\ntype = \"prismatic\"\npoint = [-1, 1, 4]\naxis = [0, 1, 0]",
+            "id = \"r\"\nlinks = [\"b\", \"c\"]\ntype = \"universal\"\npoint = [-1, 1, 3]\naxis = [-1, 0, 0]\nreference = [0, 0, 1]",
+        ],
+    );
 }
 
 #[test]
@@ -123,16 +125,12 @@ fn sdf_models() {
         <joint name='j' type='ball'><parent>world</parent><child>in::a</child></joint>",
         ),
     );
-    assert!(
-        t.contains("links = [\"world\", \"in::a\"]") && t.contains("point = [0, 0, 1]"),
-        "{t}"
-    );
+    has(&t, "links = [\"world\", \"in::a\"]");
+    has(&t, "point = [0, 0, 1]");
     let world = "<sdf version='1.9'><world name='w'><light name='sun'/>
         <model name='floor'><static>true</static><link name='l'/></model>
         <model name='arm'><link name='l'/><joint name='j' type='ball'><parent>world</parent><child>l</child></joint></model></world></sdf>";
     let t = toml_of("m.sdf", world);
-    assert!(
-        t.contains("links = [\"world\", \"arm::l\"]") && t.contains("with floor::l"),
-        "{t}"
-    );
+    has(&t, "links = [\"world\", \"arm::l\"]");
+    has(&t, "with floor::l");
 }

@@ -1,6 +1,6 @@
 //! Robots: what other readers take is taken, and what is left out or not as drawn is said, by `lint` too.
 
-use crate::common::run_on;
+use crate::common::{has, has_all, run_on};
 use crate::robots::fix::run;
 use crate::robots::mjcf::mjcf;
 use serde_json::Value;
@@ -41,7 +41,7 @@ fn models_that_nothing_holds_float() {
     let of = |more: &str| sdf(&format!("<model name='m'>{more}{LINKS}{HINGE}</model>"));
     let (w, _, notes) = linted("m.sdf", &of(""), &[]);
     assert_eq!(w, 7);
-    assert!(notes.contains("floats with 6 freedoms"), "{notes}");
+    has(&notes, "floats with 6 freedoms");
     assert_eq!(linted("m.sdf", &of(""), &["--frame", "a"]).0, 1);
     assert_eq!(linted("m.sdf", &of(HELD), &[]).0, 1);
     let (code, out, _) = run_on("lint", "m.sdf", &of("<static>true</static>"), &[]);
@@ -103,7 +103,7 @@ fn gearboxes_are_couplings() {
     };
     assert_eq!(linted("m.sdf", &of("a"), &[]).0, 1);
     let (_, out, _) = run_on("export", "m.sdf", &of("a"), &["--to", "toml"]);
-    assert!(out.contains("ratio = -3"), "{out}");
+    has(&out, "ratio = -3");
     // What has no such hinges is left out, and said.
     let (w, _, notes) = linted("m.sdf", &of("b"), &[]);
     assert!(w == 2 && notes.contains("gears"), "{notes}");
@@ -127,9 +127,7 @@ fn what_mujoco_makes_of_flexible_and_attached_parts_is_left_out() {
     );
     let (w, _, notes) = linted("m.xml", &text, &[]);
     assert_eq!(w, 1);
-    for name in ["cloth", "attach", "deformable"] {
-        assert!(notes.contains(name), "{name}: {notes}");
-    }
+    has_all(&notes, &["cloth", "attach", "deformable"]);
 }
 
 // y = x + x²/2, so that at x = 1 the follower goes twice as fast.

@@ -1,6 +1,6 @@
 //! Loops and couplings that stand where a reader does not look first: they are read, or they are reported and counted.
 
-use crate::common::{fresh, run_on};
+use crate::common::{fresh, has, run_on};
 use crate::robots::fix::run;
 use crate::robots::mjcf::mjcf;
 use ozols::robots::{Options, import};
@@ -350,6 +350,6 @@ fn joints_put_in_have_an_armature() {
         <equality><connect name='e' body1='b' body2='c' anchor='2 0.5 0'/></equality></mujoco>";
     let (code, out, err) = run_on("fix", "x.xml", text, &["--at", "e"]);
     assert_eq!(code, Some(0), "{err}");
-    assert!(out.contains("type=\"slide\" armature=\"280\""), "{out}");
-    assert!(out.contains("<inertial pos=\"2 0.5 0\""), "{out}");
+    has(&out, "type=\"slide\" armature=\"280\"");
+    has(&out, "<inertial pos=\"2 0.5 0\"");
 }

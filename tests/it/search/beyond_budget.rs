@@ -2,7 +2,7 @@
 //! are.
 
 use super::families::scissor_lift;
-use crate::common::{ozols, text};
+use crate::common::{Json, has, has_all, ozols, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::analysis::exact_field;
 use ozols::search::Search;
@@ -182,37 +182,35 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
         text(&o.stdout)
     };
     let said = told(&[]);
-    for words in [
-        "Stopped early (node-budget): counts are lower bounds\n",
-        "Estimated, not counted, with 95 % confidence: ",
-        "With --nodes 5000 more is counted, in about ten times the time and memory\n",
-        "Proven the cheapest: all 3",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    has_all(
+        &said,
+        &[
+            "Stopped early (node-budget): counts are lower bounds\n",
+            "Estimated, not counted, with 95 % confidence: ",
+            "With --nodes 5000 more is counted, in about ten times the time and memory\n",
+            "Proven the cheapest: all 3",
+        ],
+    );
     let v: Value = serde_json::from_str(&told(&["--format", "json"])).unwrap();
     assert_eq!(
         (&v["exact"], &v["variants_proven"]),
         (&false.into(), &3.into())
     );
     let estimate = &v["admissible_estimate"];
-    let mean = estimate["mean"].as_f64().unwrap();
-    let least: f64 = v["admissible"].as_str().unwrap().parse().unwrap();
-    let most: f64 = estimate["at_most"].as_str().unwrap().parse().unwrap();
+    let mean = estimate["mean"].real();
+    let least: f64 = v["admissible"].word().parse().unwrap();
+    let most: f64 = estimate["at_most"].word().parse().unwrap();
     assert!(least < mean && mean < most, "{least} {mean} {most}");
     assert!(
         mean / least < 1.2 && most / mean < 4.0,
         "{least} {mean} {most}"
     );
-    assert!(estimate["samples"]["of"].as_u64().unwrap() >= 10_000);
+    assert!(estimate["samples"]["of"].whole() >= 10_000);
     let [least, most] = [&v["admissible"], &estimate["at_most"]].map(|n| {
-        let n: u64 = n.as_str().unwrap().parse().unwrap();
+        let n: u64 = n.word().parse().unwrap();
         ozols_grouped(n)
     });
-    assert!(
-        said.contains(&format!(": {least} to {most}, about ")),
-        "{said}"
-    );
+    has(&said, &format!(": {least} to {most}, about "));
     assert!(told(&["--format", "csv", "--comment"]).contains("the first 3 proven the cheapest"));
     let last = told(&["--format", "jsonl"])
         .lines()
@@ -221,12 +219,13 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
         .to_owned();
     assert_eq!(serde_json::from_str::<Value>(&last).unwrap()["proven"], 3);
     let said = told(&["--no-count"]);
-    for words in [
-        "Not counted (--no-count): counts are lower bounds\n",
-        "Proven the cheapest: all 3",
-    ] {
-        assert!(said.contains(words), "{words}: {said}");
-    }
+    has_all(
+        &said,
+        &[
+            "Not counted (--no-count): counts are lower bounds\n",
+            "Proven the cheapest: all 3",
+        ],
+    );
     assert!(!said.contains("Estimated"), "{said}");
 }
 
@@ -310,7 +309,7 @@ fn bounds_do_not_contradict_each_other() {
             ];
             let found: Value =
                 serde_json::from_slice(&ozols(&args).output().unwrap().stdout).unwrap();
-            let number = |v: &Value| v.as_str().unwrap().parse::<u64>().unwrap();
+            let number = |v: &Value| v.word().parse::<u64>().unwrap();
             cut += usize::from(found["determinate_exact"] == false);
             let [all, some] = ["determinate", "admissible"].map(|k| number(&found[k]));
             assert!(some <= all, "{seed} {nodes}: {some} of {all}");

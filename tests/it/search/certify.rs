@@ -1,6 +1,6 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::common::{built_in, json, out, ozols};
+use crate::common::{Json, built_in, has, has_all, json, out, ozols};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
@@ -65,9 +65,10 @@ fn two_primes_agree_on_every_built_in_mechanism() {
 fn primes_that_disagree_are_told_apart() {
     let four_bar = out(&["show", "four-bar"]);
     let said = compared([&four_bar, &tilted()]).unwrap_err();
-    for part in ["primes disagree", "34 determinate", "36 determinate"] {
-        assert!(said.contains(part), "{said}");
-    }
+    has_all(
+        &said,
+        &["primes disagree", "34 determinate", "36 determinate"],
+    );
     assert_eq!(both(&tilted()).unwrap().0, Verdict::Agree);
 }
 
@@ -75,7 +76,7 @@ fn primes_that_disagree_are_told_apart() {
 fn the_check_is_reported() {
     let v = json(&["search", "four-bar", "--format", "json"]);
     assert_eq!(v["check"]["agree"], true);
-    assert_eq!(v["check"]["primes"].as_array().unwrap().len(), 2);
+    assert_eq!(v["check"]["primes"].list().len(), 2);
     let v = json(&["search", "four-bar", "--format", "json", "--check", "none"]);
     assert_eq!(v["check"], Value::Null);
     let says = |check| out(&["search", "four-bar", "--check", check]).contains("Checked: modulo");
@@ -126,27 +127,28 @@ fn a_variant_that_two_methods_see_differently_is_marked() {
             .output()
             .unwrap();
         let warned = String::from_utf8(o.stderr).unwrap();
-        assert!(warned.contains("nearly singular"), "{warned}");
+        has(&warned, "nearly singular");
         String::from_utf8(o.stdout).unwrap()
     };
     let v: Value = serde_json::from_str(&said(&["--format", "json", "--all"])).unwrap();
     assert_eq!(v["check"]["agree"], true, "the primes see the same");
-    let variants = v["variants"].as_array().unwrap();
+    let variants = v["variants"].list();
     let wrong: Vec<&Value> = variants.iter().filter(|x| x["agree"] == false).collect();
     assert!(!wrong.is_empty() && v["variants_disagreeing"] == wrong.len());
     for x in wrong {
         let gap = (&x["svd"]["smallest_kept"], &x["svd"]["largest_dropped"]);
-        assert!(gap.0.as_f64().unwrap() > 1e-9 && gap.1.as_f64().unwrap() < 1e-9);
+        assert!(gap.0.real() > 1e-9 && gap.1.real() < 1e-9);
         assert!(x["svd"]["redundant"] != x["redundant"] || x["svd"]["mobility"] != x["mobility"]);
     }
     let text = said(&[]);
-    for part in [
-        "Singular values disagree",
-        " *  ",
-        "  * 1: by singular values W = ",
-    ] {
-        assert!(text.contains(part), "no {part:?} in {text}");
-    }
+    has_all(
+        &text,
+        &[
+            "Singular values disagree",
+            " *  ",
+            "  * 1: by singular values W = ",
+        ],
+    );
     let csv = said(&["--format", "csv"]);
     let column = |name: &str| {
         csv.lines()
@@ -165,8 +167,8 @@ fn nearly_singular_variants_are_marked() {
     let path = folder.path().join("near.toml");
     fs::write(&path, shaky().replace("1e-11", "1e-6")).unwrap();
     let text = out(&["search", path.to_str().unwrap()]);
-    assert!(text.contains("nearly singular"), "{text}");
-    assert!(text.contains("Singular values agree"), "{text}");
+    has(&text, "nearly singular");
+    has(&text, "Singular values agree");
 }
 
 #[test]
@@ -176,7 +178,7 @@ fn a_long_list_says_where_the_checking_ends() {
     let text = out(&[&options[..], &wide].concat());
     assert!(text.contains("agree on the first 1,000; the rest was not asked"));
     let v = json(&[&options[..], &wide, &["--format", "json"]].concat());
-    let variants = v["variants"].as_array().unwrap();
+    let variants = v["variants"].list();
     assert_eq!(
         (variants.len(), &v["variants_checked"]),
         (1034, &1000.into())
@@ -217,7 +219,7 @@ fn measured_coordinates_that_do_no_harm_are_warned_about() {
         &["--format", "json"],
     );
     assert_eq!(code, Some(0), "{stderr}");
-    assert!(stderr.contains("snapped: 4 axes parallel"), "{stderr}");
+    has(&stderr, "snapped: 4 axes parallel");
     let v: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!(v["measured"]["agree"], true);
     assert_eq!(v["measured"]["states"][0]["exact"]["redundant"], 3);
@@ -235,7 +237,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
     text.replace_range(at.., &last);
     let (code, stdout, stderr) = search(&text, &["--format", "json"]);
     assert_eq!(code, Some(0), "{stderr}");
-    assert!(stderr.contains("snapped: 4 axes parallel"), "{stderr}");
+    has(&stderr, "snapped: 4 axes parallel");
     let v: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!(v["determinate"], "34");
     assert_eq!(v["measured"]["states"][0]["exact"]["redundant"], 2);
@@ -246,9 +248,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
         code == Some(0) && stderr.starts_with("warning: "),
         "{stderr}"
     );
-    for part in ["W = 0, σ = 2", "W = 1, σ = 3", "[tolerance]"] {
-        assert!(stderr.contains(part), "no {part:?} in {stderr}");
-    }
+    has_all(&stderr, &["W = 0, σ = 2", "W = 1, σ = 3", "[tolerance]"]);
     let v: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!(v["measured"]["agree"], false);
     assert_eq!(v["measured"]["states"][0]["svd"]["redundant"], 3);
@@ -258,10 +258,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
     let nine = nine.replace("0.8660254037844387", "0.866025403");
     let (code, _, stderr) = search(&nine, &["--as-written"]);
     assert_eq!(code, Some(0));
-    assert!(
-        stderr.contains("to within 2e-9 it is meant to have W = 1, σ = 3"),
-        "{stderr}"
-    );
+    has(&stderr, "to within 2e-9 it is meant to have W = 1, σ = 3");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
-use crate::common::{built_in, changed, json, out, run, text};
+use crate::common::{Json, built_in, changed, json, out, run, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
@@ -57,10 +57,7 @@ fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
     };
     let costs = at("costs.toml");
     let (with, without) = (cost(&["--costs", &costs]), cost(&[]));
-    assert!(
-        with.as_f64().unwrap() < without.as_f64().unwrap(),
-        "{with} {without}"
-    );
+    assert!(with.real() < without.real(), "{with} {without}");
 }
 
 #[test]
@@ -123,8 +120,8 @@ fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
         let path = folder.path().join(format!("{price}.toml"));
         fs::write(&path, text).unwrap();
         let v = json(&["search", path.to_str().unwrap(), "--format", "json"]);
-        let all = v["variants"].as_array().unwrap().iter();
-        all.map(|v| v["cost"].as_f64().unwrap()).collect::<Vec<_>>()
+        let all = v["variants"].list().iter();
+        all.map(|v| v["cost"].real()).collect::<Vec<_>>()
     };
     let default = list("1");
     assert!(!default.is_empty() && default.iter().all(|c| *c > 1.0));

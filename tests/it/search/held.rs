@@ -3,7 +3,7 @@
 mod mirrored;
 mod relieved;
 
-use crate::common::{changed, count, json, out, run};
+use crate::common::{Json, changed, count, has, json, out, run, words};
 use ozols::builtin;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -58,8 +58,8 @@ fn a_part_that_spins_between_two_pads_is_not_held() {
         &path,
         &["--max-external", "0", "--allow-loose-object", "--top", "20"],
     );
-    for v in list["variants"].as_array().unwrap() {
-        let changes = v["changes"].as_array().unwrap();
+    for v in list["variants"].list() {
+        let changes = v["changes"].list();
         for pad in ["4-a", "a-8"] {
             assert!(changes.iter().any(|c| c["joint"] == pad), "{v}");
         }
@@ -82,25 +82,22 @@ fn a_part_that_spins_between_two_pads_is_not_held() {
 #[test]
 fn the_conditions_in_a_state_are_said() {
     let text = said("gripper-10", &["--state", "clamped", "--count"]);
-    assert!(text.contains("and hold a in state clamped"), "{text}");
+    has(&text, "and hold a in state clamped");
     assert!(!text.contains("4294967295"), "{text}");
     let text = said(
         "gripper-10",
         &["--state", "clamped", "--count", "--allow-loose-object"],
     );
-    assert!(
-        text.contains("have any external σ in state clamped"),
-        "{text}"
-    );
+    has(&text, "have any external σ in state clamped");
     let limits = ["--max-external", "2", "--max-harmful", "0", "--top", "1"];
     let text = said("gripper-10", &limits);
-    assert!(
-        text.contains("hold a in state clamped and have external σ ≤ 2, harmful ≤ 0 in it"),
-        "{text}"
+    has(
+        &text,
+        "hold a in state clamped and have external σ ≤ 2, harmful ≤ 0 in it",
     );
-    assert!(
-        text.contains("ozols draw gripper-10 --max-external 2 --max-harmful 0 --idea 1"),
-        "{text}"
+    has(
+        &text,
+        "ozols draw gripper-10 --max-external 2 --max-harmful 0 --idea 1",
     );
 }
 
@@ -120,36 +117,25 @@ fn an_object_is_held_by_name() {
     let o = run(&["search", &path, "--hold", "a"]);
     let text = String::from_utf8(o.stderr).unwrap();
     assert_eq!(o.status.code(), Some(2));
-    assert!(
-        text.contains("link a") && text.contains("in state clamped alone; add --state clamped"),
-        "{text}"
-    );
+    has(&text, "link a");
+    has(&text, "in state clamped alone; add --state clamped");
 }
 
 /// [Pogrebnyak 2018]: of the five external constraints three are friction that both jaws supply and two demand parallel
 /// faces; with the pad two are left, and they only share the load.
 #[test]
 fn harmful_constraints_are_counted() {
-    let present = [
-        "--max-redundant",
-        "11",
-        "--max-changes",
-        "1",
-        "--state",
-        "clamped",
-    ];
+    let present = words("--max-redundant 11 --max-changes 1 --state clamped");
     let allowed = ["--options", "revolute", "--top", "20"];
     let v = searched("gripper-10", &[&present[..], &allowed].concat());
-    let list = v["variants"].as_array().unwrap();
+    let list = v["variants"].list();
     let of = |joint: Option<&str>| {
         list.iter()
-            .find(
-                |v| match (v["changes"].as_array().unwrap().as_slice(), joint) {
-                    ([], None) => true,
-                    ([one], Some(j)) => one["joint"] == j,
-                    _ => false,
-                },
-            )
+            .find(|v| match (v["changes"].list().as_slice(), joint) {
+                ([], None) => true,
+                ([one], Some(j)) => one["joint"] == j,
+                _ => false,
+            })
             .unwrap()
     };
     assert_eq!(
@@ -167,13 +153,13 @@ fn harmful_constraints_are_counted() {
     // The same count as that of the analysis of the variant.
     let few = ["--max-harmful", "0", "--top", "3"];
     let found = json(&[&["search", "gripper-10", "--format", "json"][..], &few].concat());
-    for v in found["variants"].as_array().unwrap() {
+    for v in found["variants"].list() {
         assert_eq!(v["external_harmful"], 0);
     }
     let without = count(&searched("gripper-10", &["--state", "clamped", "--count"])["admissible"]);
     assert!(count(&found["admissible"]) < without);
     let text = out(&[&["search", "gripper-10"][..], &few].concat());
-    assert!(text.contains("harmful"), "{text}");
+    has(&text, "harmful");
     let csv = out(&[&["search", "gripper-10", "--format", "csv"][..], &few].concat());
     let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     let at = head.iter().position(|h| *h == "external_harmful").unwrap();
@@ -197,10 +183,7 @@ fn harm_has_a_price_and_a_term() {
     let v = first(&priced);
     assert_eq!(v["external_harmful"], 0, "{v}");
     // Two harmful ones at 3 each cost more than a pad at 4.
-    assert_eq!(
-        v["cost"].as_f64().unwrap() - 4.0,
-        first(&path)["cost"].as_f64().unwrap()
-    );
+    assert_eq!(v["cost"].real() - 4.0, first(&path)["cost"].real());
     let ranked = [
         "--rank",
         "harmful,cost=0.01",
@@ -212,8 +195,5 @@ fn harm_has_a_price_and_a_term() {
     let o = run(&["search", "gripper-10-loaded", "--rank", "harmful"]);
     assert_eq!(o.status.code(), Some(2));
     let text = String::from_utf8(o.stderr).unwrap();
-    assert!(
-        text.contains("add --state, such as --state clamped"),
-        "{text}"
-    );
+    has(&text, "add --state, such as --state clamped");
 }

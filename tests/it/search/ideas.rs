@@ -6,7 +6,7 @@ mod textbook;
 mod toggle;
 mod why;
 
-use crate::common::{built_in, count, json, out, run, text};
+use crate::common::{Json, built_in, count, has, json, out, run, text};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use ozols::geom::vector::{cross, real, unit};
@@ -287,10 +287,7 @@ fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
     let args = ["search", "gripper-10", "--distinct", "--top", "3"];
     let with = |more: &[&'static str]| [&args[..], more].concat();
     let short = out(&with(&["--nodes", "60"]));
-    assert!(
-        short.contains("variants are valid but may not be the cheapest"),
-        "{short}"
-    );
+    has(&short, "variants are valid but may not be the cheapest");
     assert!(
         !short.contains("Proven the cheapest") && !short.contains(" minimal"),
         "{short}"
@@ -303,16 +300,12 @@ fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
         cut["variants_proven"]
     );
     for (data, exact) in [(&whole, true), (&cut, false)] {
-        let ideas = data["variants"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|v| &v["idea"]);
+        let ideas = data["variants"].list().iter().map(|v| &v["idea"]);
         assert!(ideas.clone().all(|i| i["exact"] == exact));
         assert_eq!(ideas.count(), 3);
     }
     assert_eq!(count(&whole["variants"][2]["idea"]["variants"]), 840);
-    let known = cut["variants"].as_array().unwrap().iter();
+    let known = cut["variants"].list().iter();
     let known = known.map(|v| count(&v["idea"]["variants"]));
     assert!(
         known.clone().all(|n| n > 0 && short.contains("at least")),
@@ -369,10 +362,8 @@ fn people_are_told_ideas_and_programs_variants() {
     };
     let plain = search(&[]);
     assert_eq!(plain, search(&["--distinct"]));
-    assert!(
-        plain.contains("stands for") && plain.contains("--idea 1"),
-        "{plain}"
-    );
+    has(&plain, "stands for");
+    has(&plain, "--idea 1");
     let every = search(&["--no-distinct"]);
     assert!(
         !every.contains("stands for") && every.contains("--variant 1"),

@@ -1,7 +1,7 @@
 //! Lists of searches that end early or do not count: what is proven of them, and how long they are.
 
 use super::beyond_budget::ladder;
-use crate::common::{built_in, json};
+use crate::common::{Json, built_in, json};
 use num_bigint::BigUint;
 use ozols::Request;
 use ozols::file::text::mechanism_from_str;
@@ -68,7 +68,7 @@ fn as_many_orbits_are_proven_as_are_asked_for() {
         json(&words)
     };
     let costs = |found: &Value| -> Vec<Value> {
-        let all = found["variants"].as_array().unwrap();
+        let all = found["variants"].list();
         all.iter().map(|v| v["cost"].clone()).collect()
     };
     let (whole, bounded) = (search(&[]), search(&["--no-count", "--nodes", "80"]));

@@ -1,6 +1,6 @@
 //! What self-stresses do to each joint: directions, moments, shares, harm, in the plane and in space.
 
-use crate::common::{built_in, json, near, out, run_on};
+use crate::common::{Json, built_in, has, json, near, out, run_on, words};
 use serde_json::Value;
 
 /// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
@@ -39,7 +39,7 @@ fn analysed(content: &str, more: &[&str]) -> Value {
 }
 
 fn joint<'a>(stress: &'a Value, name: &str) -> &'a Value {
-    let all = stress["joints"].as_array().unwrap();
+    let all = stress["joints"].list();
     all.iter().find(|j| j["joint"] == name).unwrap()
 }
 
@@ -47,7 +47,7 @@ fn joint<'a>(stress: &'a Value, name: &str) -> &'a Value {
 #[test]
 fn a_plane_has_its_directions_and_moments_at_the_joints() {
     let found = analysed(SLIDES, &[]);
-    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
+    let stresses = found["states"][0]["self_stresses"].list();
     assert_eq!(stresses.len(), 2);
     let across: Vec<&Value> = stresses
         .iter()
@@ -66,19 +66,11 @@ fn a_plane_has_its_directions_and_moments_at_the_joints() {
     assert_eq!(joint(couple, "right")["moments"], serde_json::json!(["z"]));
     // |f|² + |m|²/ℓ²: 1 on the left, 1 + 4 on the right.
     for (stress, left, right) in [(across, 1.0 / 6.0, 5.0 / 6.0), (couple, 0.5, 0.5)] {
-        near(
-            joint(stress, "left")["share"].as_f64().unwrap(),
-            left,
-            1e-12,
-        );
-        near(
-            joint(stress, "right")["share"].as_f64().unwrap(),
-            right,
-            1e-12,
-        );
+        near(joint(stress, "left")["share"].real(), left, 1e-12);
+        near(joint(stress, "right")["share"].real(), right, 1e-12);
     }
     let (_, text, _) = run_on("analyze", "m.toml", SLIDES, &[]);
-    assert!(text.contains("right 83 %, left 17 %"), "{text}");
+    has(&text, "right 83 %, left 17 %");
     assert!(!text.contains("force along x"), "{text}");
 }
 
@@ -93,8 +85,8 @@ fn planes_may_lie_anywhere() {
         .replace("point = [0, 0, 0]", "point = [10, 3, 7]")
         .replace("point = [2, 0, 0]", "point = [12, 3, 7]");
     let found = analysed(&tilted, &[]);
-    for stress in found["states"][0]["self_stresses"].as_array().unwrap() {
-        for j in stress["joints"].as_array().unwrap() {
+    for stress in found["states"][0]["self_stresses"].list() {
+        for j in stress["joints"].list() {
             assert!(
                 j["forces"] == serde_json::json!(["z"]) || j["forces"] == serde_json::json!([]),
                 "{j}"
@@ -111,20 +103,9 @@ fn planes_may_lie_anywhere() {
 /// parallel faces, which do.
 #[test]
 fn harm_is_judged_in_the_plane_too() {
-    let found = json(&[
-        "analyze",
-        "gripper-10",
-        "--planar",
-        "--state",
-        "clamped",
-        "--format",
-        "json",
-    ]);
-    let stresses = found["states"][0]["self_stresses"].as_array().unwrap();
-    let verdicts: Vec<&str> = stresses
-        .iter()
-        .map(|s| s["verdict"].as_str().unwrap())
-        .collect();
+    let found = json("analyze gripper-10 --planar --state clamped --format json");
+    let stresses = found["states"][0]["self_stresses"].list();
+    let verdicts: Vec<&str> = stresses.iter().map(|s| s["verdict"].word()).collect();
     assert_eq!(verdicts, ["harmless", "harmful"], "{stresses:?}");
     let at_pad = joint(&stresses[0], "4-a");
     assert_eq!(
@@ -140,16 +121,7 @@ fn harm_is_judged_in_the_plane_too() {
 /// The plane leaves out the slider's turn about its axis, and so does the count in it.
 #[test]
 fn planar_counting_counts_what_moves_in_the_plane() {
-    let planar = [
-        "analyze",
-        "gripper-10",
-        "--planar",
-        "--state",
-        "free",
-        "--format",
-        "json",
-        "--method",
-    ];
+    let planar = words("analyze gripper-10 --planar --state free --format json --method");
     let counted = json(&[&planar[..], &["count-planar"]].concat());
     assert_eq!(counted["states"][0]["mobility"], 1, "{counted}");
     let modular = json(&[&planar[..], &["modular"]].concat());
@@ -169,14 +141,14 @@ fn shares_of_a_self_stress_add_up() {
     ] {
         let found = json(&["analyze", name, "--format", "json"]);
         let text = out(&["analyze", name]);
-        for state in found["states"].as_array().unwrap() {
-            for stress in state["self_stresses"].as_array().unwrap() {
-                let joints = stress["joints"].as_array().unwrap();
-                let sum: f64 = joints.iter().map(|j| j["share"].as_f64().unwrap()).sum();
+        for state in found["states"].list() {
+            for stress in state["self_stresses"].list() {
+                let joints = stress["joints"].list();
+                let sum: f64 = joints.iter().map(|j| j["share"].real()).sum();
                 near(sum, 1.0, 1e-9);
             }
         }
-        assert!(text.contains("borne by"), "{text}");
+        has(&text, "borne by");
         assert!(!text.contains("carried at"), "{text}");
     }
 }
@@ -252,12 +224,12 @@ ratio = "1/2"
 fn what_a_state_adds_is_counted_without_what_is_there_already() {
     let a = analysed(COUPLED, &[]);
     let clamped = &a["states"][1];
-    let stresses = clamped["self_stresses"].as_array().unwrap();
+    let stresses = clamped["self_stresses"].list();
     let external = stresses.iter().filter(|s| s["external"] == true).count();
     assert_eq!(clamped["external"]["redundant_by_rank"], 4);
     assert_eq!((external, stresses.len()), (4, 8), "{stresses:#?}");
     let said = out(&["analyze", "gripper-10", "--state", "clamped"]);
-    assert!(said.contains("External: σ = "), "{said}");
+    has(&said, "External: σ = ");
 }
 
 /// What joints bear of a self-stress: nothing along or about what they leave free, and every link is in equilibrium.

@@ -1,6 +1,6 @@
 //! The cheapest symmetric redesigns, against lists of all symmetric variants.
 
-use crate::common::{json, out, ozols};
+use crate::common::{Json, json, out, ozols};
 use serde_json::Value;
 
 /// Returns what a search of the gripper says with more flags.
@@ -14,7 +14,7 @@ fn found(more: &[&str]) -> Value {
 #[test]
 fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
     let all = found(&[]);
-    let best = all["symmetric"].as_array().unwrap();
+    let best = all["symmetric"].list();
     let row = |v: &Value| [&v["redundant"], &v["cost"], &v["mobility"]].map(Value::to_string);
     let rows: Vec<_> = best.iter().map(row).collect();
     assert!(
@@ -33,7 +33,7 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
             "none",
         ];
         let list = found(&flags);
-        let variants = list["variants"].as_array().unwrap();
+        let variants = list["variants"].list();
         let first = variants.iter().find(|v| v["redundant"] == left);
         assert_eq!(v["changes"], first.unwrap()["changes"], "σ = {left}");
         assert_eq!(row(v), row(first.unwrap()), "σ = {left}");

@@ -1,6 +1,6 @@
 //! Files that offer no joint types, joint types that would help, and symmetry that no file names.
 
-use crate::common::{count, json, ozols};
+use crate::common::{Json, count, json, ozols, words};
 use serde_json::Value;
 
 /// Returns the JSON of a command whatever its exit code, and that code.
@@ -15,11 +15,7 @@ fn answer(args: &[&str]) -> (Value, Option<i32>) {
 fn every_builtin_mechanism_is_searched() {
     let all = json(&["list", "--format", "json"]);
     let mut alone = Vec::new();
-    let names = all
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|m| m["name"].as_str().unwrap());
+    let names = all.list().iter().map(|m| m["name"].word());
     for name in names {
         let args = [
             "search", name, "--count", "--format", "json", "-q", "--nodes", "2000",
@@ -224,16 +220,7 @@ fn an_unsymmetric_mechanism_is_refused() {
 /// one of a hand-written enumeration of subsets.
 #[test]
 fn every_set_of_freedoms_is_offered_by_one_word() {
-    let args = [
-        "search",
-        "gripper-10",
-        "--options",
-        "any",
-        "--count",
-        "--format",
-        "json",
-        "-q",
-    ];
+    let args = words("search gripper-10 --options any --count --format json -q");
     let (found, _) = answer(&[&args[..], &["--pose-only", "--drives", "free"]].concat());
     assert_eq!(found["space"], 31u64.pow(12).to_string());
     assert_eq!(count(&found["admissible"]), 91_391_212);
@@ -249,17 +236,9 @@ fn every_set_of_freedoms_is_offered_by_one_word() {
         "-q",
     ]);
     assert_eq!(found["space"], 3u64.pow(12).to_string());
-    let o = ozols(&[
-        "search",
-        "four-bar",
-        "--options",
-        "any",
-        "--no-distinct",
-        "--top",
-        "3",
-    ])
-    .output()
-    .unwrap();
+    let o = ozols("search four-bar --options any --no-distinct --top 3")
+        .output()
+        .unwrap();
     assert!(
         String::from_utf8(o.stderr)
             .unwrap()
@@ -270,21 +249,9 @@ fn every_set_of_freedoms_is_offered_by_one_word() {
 /// The sets are those of an enumeration: each subset of the six freedoms with the turn of the hinge in it, whatever is left out.
 #[test]
 fn every_subset_of_freedoms_is_a_choice() {
-    let args = [
-        "search",
-        "four-bar",
-        "--options",
-        "any",
-        "--all",
-        "--allow-output-change",
-        "--max-redundant",
-        "9",
-        "--format",
-        "jsonl",
-        "-q",
-        "--check",
-        "none",
-    ];
+    let args = words(
+        "search four-bar --options any --all --allow-output-change --max-redundant 9 --format jsonl -q --check none",
+    );
     let o = ozols(&args).output().unwrap();
     let text = String::from_utf8(o.stdout).unwrap();
     let mut at_one = std::collections::BTreeSet::new();
@@ -297,7 +264,7 @@ fn every_subset_of_freedoms_is_a_choice() {
         if let [one] = changes
             && one["joint"] == "1-2"
         {
-            at_one.insert(one["to"].as_str().unwrap().to_owned());
+            at_one.insert(one["to"].word().to_owned());
         }
     }
     assert_eq!(at_one.len(), 30);

@@ -1,6 +1,6 @@
 //! Variants of a search's list as mechanisms of their own, and what to do where there are none.
 
-use crate::common::{changed, count, json, out, ozols, run_on};
+use crate::common::{Json, changed, count, has, json, out, ozols, run_on};
 use serde_json::Value;
 
 /// Flags of a question and places in its list.
@@ -78,12 +78,12 @@ fn an_exported_variant_has_the_figures_of_the_list() {
             }
             let written = std::fs::read_to_string(path).unwrap();
             pads += usize::from(written.contains("a-8 unloading"));
-            for change in variant["changes"].as_array().unwrap() {
+            for change in variant["changes"].list() {
                 let head = written
                     .lines()
                     .find(|l| l.starts_with("description"))
                     .unwrap();
-                assert!(head.contains(change["joint"].as_str().unwrap()), "{head}");
+                assert!(head.contains(change["joint"].word()), "{head}");
             }
             // What is a mechanism of its own is exported again like any other.
             out(&["export", path, "--to", "toml"]);
@@ -101,15 +101,8 @@ fn variants_in_every_format_and_drawn() {
     }
     // The ranked list, not that of cost.
     let (_, first) = listed("gripper-10-loaded", &["--pool", "2000"], 1);
-    let changed = first["changes"][0]["to"].as_str().unwrap();
-    let drawn = out(&[
-        "draw",
-        "gripper-10-loaded",
-        "--variant",
-        "1",
-        "--pool",
-        "2000",
-    ]);
+    let changed = first["changes"][0]["to"].word();
+    let drawn = out("draw gripper-10-loaded --variant 1 --pool 2000");
     assert!(drawn.contains(changed), "{changed}");
     for (args, part) in [
         (
@@ -130,16 +123,7 @@ fn variants_in_every_format_and_drawn() {
 
 #[test]
 fn a_search_says_what_to_do_next() {
-    let text = out(&[
-        "search",
-        "gripper-10",
-        "--max-mobility",
-        "1",
-        "--hold",
-        "5",
-        "--top",
-        "1",
-    ]);
+    let text = out("search gripper-10 --max-mobility 1 --hold 5 --top 1");
     assert!(text.starts_with("gripper-10: "), "{text}");
     assert!(
         text.lines()
@@ -182,9 +166,9 @@ fn what_would_help_where_nothing_is_found() {
             .unwrap();
         assert_eq!(o.status.code(), Some(1), "{q:?}");
         let value: Value = serde_json::from_slice(&o.stdout).unwrap();
-        let eased = value["relaxations"].as_array().unwrap();
+        let eased = value["relaxations"].list();
         for r in eased {
-            let what = r["condition"].as_str().unwrap();
+            let what = r["condition"].word();
             seen.insert(what.to_owned());
             let flag = format!("--{what}");
             let ask = |to: Option<i64>| {
@@ -215,7 +199,7 @@ fn what_would_help_where_nothing_is_found() {
         let o = ozols(&with(&["search"], q)).output().unwrap();
         let text = String::from_utf8(o.stdout).unwrap();
         assert!(text.starts_with("gripper-10: none of "), "{text}");
-        assert!(text.contains("Offer more options"), "{text}");
+        has(&text, "Offer more options");
     }
     assert!(seen.len() >= 4, "{seen:?}");
 }
@@ -267,7 +251,7 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         .lines()
         .find(|l| l.contains("ozols export lever-gripper"))
         .unwrap();
-    assert!(next.contains("--rank cost --variant 1"), "{next}");
+    has(next, "--rank cost --variant 1");
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("one.toml");
     let of = [

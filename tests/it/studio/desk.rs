@@ -1,7 +1,7 @@
 //! The desk: undo, conflicts, saving, and work that is left behind.
 
 use super::served::Served;
-use crate::common::{out, text};
+use crate::common::{Json, has, out, text};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -27,12 +27,7 @@ fn every_change_can_be_undone_to_the_byte() {
     let s = Served::new(folder.path(), &["mine.toml"]);
     let mut texts = vec![own.clone()];
     for joint in ["1-2", "2-3", "4-5", "5-1", "1-6", "6-7", "8-9"] {
-        texts.push(
-            s.done("edit", &spherical(joint))["text"]
-                .as_str()
-                .unwrap()
-                .to_owned(),
-        );
+        texts.push(s.done("edit", &spherical(joint))["text"].word().to_owned());
     }
     for text in texts.iter().rev().skip(1) {
         assert_eq!(s.done("undo", &json!({}))["text"], text.as_str());
@@ -69,7 +64,7 @@ fn a_text_that_is_made_of_an_older_one_is_refused() {
     let mut window = s.window();
     window.next("look");
     assert_eq!(s.post("edit", &whole(&first)).0, 409);
-    let sent = window.next("look")["text"].as_str().unwrap().to_owned();
+    let sent = window.next("look")["text"].word().to_owned();
     assert!(
         sent.contains("spherical"),
         "whoever was late gets what there is"
@@ -89,10 +84,7 @@ fn what_another_program_writes_is_taken_in_or_told() {
     fs::write(&file, &theirs).unwrap();
     s.until(|v| v["revision"] == 2);
     assert_eq!(s.done("undo", &json!({}))["text"], own.as_str());
-    let mine = s.done("edit", &spherical("1-2"))["text"]
-        .as_str()
-        .unwrap()
-        .to_owned();
+    let mine = s.done("edit", &spherical("1-2"))["text"].word().to_owned();
     // Something unsaved: told, and nothing written over.
     let again = own.replace("# coupler, 100 mm", "# again");
     fs::write(folder.path().join("mine.toml~"), &again).unwrap();
@@ -111,10 +103,7 @@ fn what_another_program_writes_is_taken_in_or_told() {
     s.done("save", &json!({ "name": null }));
     assert_eq!(fs::read_to_string(&file).unwrap(), mine);
     // The other way round.
-    let unsaved = s.done("edit", &spherical("2-3"))["text"]
-        .as_str()
-        .unwrap()
-        .to_owned();
+    let unsaved = s.done("edit", &spherical("2-3"))["text"].word().to_owned();
     fs::write(&file, &own).unwrap();
     s.until(|v| v["desk"]["conflict"] == true);
     assert_eq!(
@@ -131,8 +120,7 @@ fn work_of_a_killed_program_is_offered() {
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let mut first = Served::new(folder.path(), &["mine.toml"]);
     let mine = first.done("edit", &spherical("1-2"))["text"]
-        .as_str()
-        .unwrap()
+        .word()
         .to_owned();
     // Another at work on the same file keeps its own, and takes that of the first for nobody's but its.
     let second = Served::new(folder.path(), &["mine.toml"]);
@@ -221,23 +209,13 @@ fn a_file_that_is_wrong_is_opened_to_be_mended() {
     let look = s.window().next("look");
     let told = &look["told"][0];
     assert_eq!(told["about"], json!(["joint", 0]), "{told}");
-    assert!(
-        told["words"]
-            .as_str()
-            .unwrap()
-            .contains("unknown joint type")
-    );
+    assert!(told["words"].word().contains("unknown joint type"));
     let mended = s.done("edit", &spherical("0-1"));
     assert_eq!(mended["whole"], true);
     fs::write(folder.path().join("bytes.toml"), [0xff, 0xfe]).unwrap();
     let s = Served::new(folder.path(), &["bytes.toml"]);
     let look = s.window().next("look");
-    assert!(
-        look["told"][0]["words"]
-            .as_str()
-            .unwrap()
-            .contains("not UTF-8")
-    );
+    assert!(look["told"][0]["words"].word().contains("not UTF-8"));
 }
 
 /// All names for unsaved work are taken, so that it cannot be kept: the page is told so until it is saved or kept.
@@ -265,10 +243,7 @@ fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
     s.done("undo", &json!({}));
     assert_eq!(trouble(&s), Value::Null, "that is saved, too");
     // With the last window closed the program is the one place where the work is.
-    let mine = s.done("edit", &spherical("0-1"))["text"]
-        .as_str()
-        .unwrap()
-        .to_owned();
+    let mine = s.done("edit", &spherical("0-1"))["text"].word().to_owned();
     assert!(trouble(&s).is_string());
     let mut window = s.window();
     window.next("look");
@@ -298,18 +273,12 @@ fn a_full_disk_takes_no_work() {
         env!("CARGO_BIN_EXE_ozols"),
     ]);
     let s = Served::run_by(shell, folder.path(), &["mine.toml"]);
-    let mine = s.done("edit", &spherical("1-2"))["text"]
-        .as_str()
-        .unwrap()
-        .to_owned();
-    let told = s.status()["desk"]["trouble"].as_str().unwrap().to_owned();
-    assert!(told.contains("mine.toml.autosave"), "{told}");
+    let mine = s.done("edit", &spherical("1-2"))["text"].word().to_owned();
+    let told = s.status()["desk"]["trouble"].word().to_owned();
+    has(&told, "mine.toml.autosave");
     let (code, told) = s.post("save", &json!({ "name": null }));
     assert_eq!(code, 422);
-    assert!(
-        told["refused"].as_str().unwrap().contains("mine.toml: "),
-        "{told}"
-    );
+    assert!(told["refused"].word().contains("mine.toml: "), "{told}");
     assert_eq!(names(folder.path()), ["mine.toml"]);
     assert_eq!(
         fs::read_to_string(folder.path().join("mine.toml")).unwrap(),

@@ -1,6 +1,7 @@
 //! The door: the token, the host, pages of others, sizes and paths.
 
 use super::served::Served;
+use crate::common::has_all;
 use serde_json::json;
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -168,16 +169,17 @@ fn every_answer_keeps_others_out() {
     std::io::Write::write_all(&mut stream, asked.as_bytes()).unwrap();
     let mut page = String::new();
     std::io::Read::read_to_string(&mut stream, &mut page).unwrap();
-    for rule in [
-        "default-src 'none'; script-src 'self'; style-src 'self'",
-        "frame-ancestors 'none'",
-        "X-Content-Type-Options: nosniff",
-        "Referrer-Policy: no-referrer",
-        "Cache-Control: no-store",
-        "Cross-Origin-Resource-Policy: same-origin",
-    ] {
-        assert!(page.contains(rule), "{rule}");
-    }
+    has_all(
+        &page,
+        &[
+            "default-src 'none'; script-src 'self'; style-src 'self'",
+            "frame-ancestors 'none'",
+            "X-Content-Type-Options: nosniff",
+            "Referrer-Policy: no-referrer",
+            "Cache-Control: no-store",
+            "Cross-Origin-Resource-Policy: same-origin",
+        ],
+    );
     // Nothing is run that does not come from an address of its own, and nothing comes from elsewhere.
     assert!(!page.contains("<script>") && !page.contains("<style"));
     for handler in [

@@ -1,5 +1,6 @@
 //! Changes to a file keep all that they do not change: comments, digits, blanks.
 
+use crate::common::Json;
 use crate::fuzz::runs;
 use ozols::builtin;
 use ozols::file::edit::{Edit, Thing, edited};
@@ -50,7 +51,7 @@ fn what_is_set_to_what_it_is_leaves_every_byte() {
                 for (key, value) in item.as_object().unwrap() {
                     // Tables within brackets are written anew.
                     if !value.to_string().contains('{') {
-                        edits.push(set(what, item["id"].as_str().unwrap(), key, value.clone()));
+                        edits.push(set(what, item["id"].word(), key, value.clone()));
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! The work at a text: the values are those of the command line, and no two searches are at work.
 
 use super::served::Served;
-use crate::common::{json, out};
+use crate::common::{Json, has, json, out};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -21,22 +21,8 @@ fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
             assert_eq!(verdict["analysis"][key], analysis[key], "{name} {key}");
         }
         let motion = window.next("motion");
-        assert!(
-            motion["scenes"][0]["moves"][0]["poses"]
-                .as_array()
-                .unwrap()
-                .len()
-                > 10
-        );
-        let mut search = json(&[
-            "search",
-            name,
-            "--distinct",
-            "--top",
-            "10",
-            "--format",
-            "json",
-        ]);
+        assert!(motion["scenes"][0]["moves"][0]["poses"].list().len() > 10);
+        let mut search = json(&format!("search {name} --distinct --top 10 --format json"));
         search.as_object_mut().unwrap().shift_remove("seconds");
         assert_eq!(window.next("ideas")["found"], search, "{name}");
     }
@@ -57,10 +43,10 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
         let mut window = s.window();
         for k in 1..=ideas {
             let told = window.next("ideas");
-            let list = told["found"]["variants"].as_array().unwrap();
+            let list = told["found"]["variants"].list();
             let Some(idea) = list.get(k - 1) else { break };
             let taken = s.done("take", &json!({ "idea": k, "revision": told["revision"] }));
-            let text = taken["text"].as_str().unwrap();
+            let text = taken["text"].word();
             for comment in own.lines().filter_map(|l| l.split_once('#').map(|c| c.1)) {
                 assert!(text.contains(comment), "{name}, idea {k}: {comment}");
             }
@@ -94,11 +80,9 @@ fn a_search_ends_when_another_text_comes() {
     let mut last = 0;
     for n in 0..12 {
         let edit = json!({ "do": "set", "what": "joint", "id": "0-1", "key": "point", "value": [n + 1, 0, 0] });
-        last = s.done("edit", &json!({ "edits": [edit], "revision": null }))["revision"]
-            .as_u64()
-            .unwrap();
+        last = s.done("edit", &json!({ "edits": [edit], "revision": null }))["revision"].whole();
         let searches = &s.status()["searches"];
-        let [begun, ended] = ["begun", "ended"].map(|k| searches[k].as_u64().unwrap());
+        let [begun, ended] = ["begun", "ended"].map(|k| searches[k].whole());
         assert!(begun - ended <= 1, "{searches}");
     }
     loop {
@@ -108,10 +92,7 @@ fn a_search_ends_when_another_text_comes() {
         }
     }
     let status = s.until(|v| v["searches"]["begun"] == v["searches"]["ended"]);
-    assert!(
-        status["searches"]["begun"].as_u64().unwrap() <= last,
-        "{status}"
-    );
+    assert!(status["searches"]["begun"].whole() <= last, "{status}");
 }
 
 #[test]
@@ -122,7 +103,7 @@ fn a_change_is_tried_without_being_made() {
     let edit = |value: Value| json!({ "edits": [{ "do": "set", "what": "joint", "id": "1-2", "key": "point", "value": value }], "revision": null });
     let tried = s.done("draft", &edit(json!([0, "10*sqrt(3)", 0])));
     assert_eq!(tried["verdict"]["analysis"]["states"][0]["redundant"], 3);
-    let y = tried["places"]["joint"][1][1].as_f64().unwrap();
+    let y = tried["places"]["joint"][1][1].real();
     assert!((y - 10.0 * 3_f64.sqrt()).abs() < 1e-12);
     let wrong = s.done("draft", &edit(json!([0, "10*sqrt(", 0])));
     assert_eq!(wrong["told"][0]["about"], json!(["joint", 1]));
@@ -150,5 +131,5 @@ fn a_description_takes_an_idea_and_no_other_change() {
     );
     s.done("save", &json!({ "name": null }));
     let saved = fs::read_to_string(folder.path().join("gripper.xml")).unwrap();
-    assert!(saved.contains("ozols fix"), "{saved}");
+    has(&saved, "ozols fix");
 }

@@ -2,7 +2,7 @@
 
 use super::drive;
 use super::repeated::latched;
-use crate::common::{json, near, out, ozols, run_on, text};
+use crate::common::{Json, has, json, near, out, ozols, run_on, text};
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::shares;
 use ozols::drive::swing::Feed;
@@ -176,28 +176,21 @@ fn json_has_the_samples_or_null() {
     assert!(plain.as_object().unwrap().contains_key("samples"));
     assert!(plain["samples"].is_null());
     let asked = |tolerance: &str| {
-        let value = json(&[
-            "drive",
-            "torsion-module",
-            "--tolerance",
-            tolerance,
-            "--samples",
-            "50",
-            "--format",
-            "json",
-        ]);
+        let value = json(&format!(
+            "drive torsion-module --tolerance {tolerance} --samples 50 --format json"
+        ));
         value["samples"].clone()
     };
-    let count = |v: &Value, key: &str| v[key].as_u64().unwrap();
+    let count = |v: &Value, key: &str| v[key].whole();
     let exact = asked("0");
     for key in ["latched_share", "complete_share", "lasting_share"] {
-        near(exact[key].as_f64().unwrap(), 1.0, 0.0);
+        near(exact[key].real(), 1.0, 0.0);
     }
-    assert_eq!(exact["first_failures"].as_array().unwrap().len(), 0);
+    assert_eq!(exact["first_failures"].list().len(), 0);
     let found = asked("0.05");
     assert_eq!(count(&found, "samples"), 50);
     assert_eq!(count(&found, "swings"), 50 * 8);
-    let failures = found["first_failures"].as_array().unwrap();
+    let failures = found["first_failures"].list();
     let all: u64 = failures.iter().map(|f| count(f, "samples")).sum();
     assert_eq!(all, count(&found, "failing"));
     assert!(all > 0 && all < 50, "{found}");
@@ -228,21 +221,18 @@ fn wrong_tolerances_are_refused_with_a_remedy() {
     };
     for t in ["-0.1", "1", "nan", "5"] {
         let errors = said(&["--tolerance", t]);
-        assert!(
-            errors.contains("a share from 0 to below 1, such as 0.05"),
-            "{errors}"
-        );
+        has(&errors, "a share from 0 to below 1, such as 0.05");
     }
     for n in ["0", "1000001"] {
         let errors = said(&["--tolerance", "0.1", "--samples", n]);
-        assert!(errors.contains("from 1 to 1000000"), "{errors}");
+        has(&errors, "from 1 to 1000000");
     }
     let errors = said(&["--samples", "5"]);
-    assert!(errors.contains("--tolerance"), "{errors}");
+    has(&errors, "--tolerance");
     // Near the critical rate some samples creep.
     let creeping = "name = \"d\"\n[workload.drive]\nswing_angle = 90\nswing_time = 0.4\ninertia = 0.2\nshear_modulus = 8e10\n\
                     allowable_stress = 6e8\nviscous_damping = 3.1\n";
     let (code, _, errors) = run_on("drive", "d.toml", creeping, &["--tolerance", "0.3"]);
     assert_eq!(code, Some(2), "{errors}");
-    assert!(errors.contains("lower --tolerance"), "{errors}");
+    has(&errors, "lower --tolerance");
 }

@@ -1,6 +1,7 @@
 //! From a mechanism file to its redesigns in every form in which they are written, and back from there.
 
 use super::mechanism_files::told;
+use crate::common::Json;
 use ozols::Scheme;
 use ozols::file::text::{mechanism_from_bytes, mechanism_from_str};
 use ozols::file::write::mechanism_file;
@@ -109,11 +110,11 @@ fn written(outcome: &Outcome) -> String {
     )
     .unwrap();
     let told: Value = serde_json::from_slice(&told).unwrap();
-    let number = |key: &str| told[key].as_str().unwrap().to_owned();
+    let number = |key: &str| told[key].word().to_owned();
     assert_eq!(number("determinate"), outcome.determinate.to_string());
     assert_eq!(number("admissible"), outcome.admissible.to_string());
     let list: Vec<_> = outcome.variants().collect();
-    assert_eq!(told["variants"].as_array().unwrap().len(), list.len());
+    assert_eq!(told["variants"].list().len(), list.len());
     for v in &list {
         let made = v.mechanism();
         let file = ozols::export(&made, "toml").unwrap();

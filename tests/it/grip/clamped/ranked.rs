@@ -2,7 +2,7 @@
 
 use super::refused::run;
 use super::{built_in, text};
-use crate::common::{json, out};
+use crate::common::{Json, has, json, out};
 use ozols::builtin;
 use ozols::model::mechanism::StateId;
 use ozols::model::ranking::{ClearanceSum, Term};
@@ -65,12 +65,12 @@ fn variants_are_scored_by_the_worst_part() {
 fn the_ranking_states_its_states() {
     let v = json(&["search", "lever-gripper", "--format", "json"]);
     assert_eq!(v["ranking"]["grip"][0]["state"], "clamped");
-    assert_eq!(v["ranking"]["grip"][0]["held"].as_array().unwrap().len(), 5);
-    assert!(v["variants"][0]["scores"]["by_cost"].as_u64().unwrap() > 1);
+    assert_eq!(v["ranking"]["grip"][0]["held"].list().len(), 5);
+    assert!(v["variants"][0]["scores"]["by_cost"].whole() > 1);
     let said = out(&["search", "lever-gripper"]);
-    assert!(
-        said.contains("Loads of state clamped from the grip: contact forces of the worst case of 5 parts, D = 30 to 50 mm"),
-        "{said}"
+    has(
+        &said,
+        "Loads of state clamped from the grip: contact forces of the worst case of 5 parts, D = 30 to 50 mm",
     );
     let with = |states: &str| {
         text().replace(
@@ -81,14 +81,12 @@ fn the_ranking_states_its_states() {
     let (code, said, _) = run(&with("[\"free\"]"), &["search", "FILE", "--format", "json"]);
     assert_eq!(code, Some(0));
     let said: Value = serde_json::from_str(&said).unwrap();
-    assert_eq!(said["ranking"]["grip"].as_array().unwrap().len(), 0);
+    assert_eq!(said["ranking"]["grip"].list().len(), 0);
     assert_eq!(said["variants"][0]["scores"]["peak-force"], 0.0);
     let (code, _, errors) = run(&with("[\"clampt\"]"), &["search", "FILE"]);
     assert_eq!(code, Some(2));
-    assert!(
-        errors.contains("clampt") && errors.contains("known: free, clamped"),
-        "{errors}"
-    );
+    has(&errors, "clampt");
+    has(&errors, "known: free, clamped");
     // Not a state of the grip.
     let loaded = builtin::text("gripper-10-loaded").unwrap();
     let loaded = loaded.replace(
@@ -97,8 +95,5 @@ fn the_ranking_states_its_states() {
     );
     let (code, _, errors) = run(&loaded, &["check", "FILE"]);
     assert_eq!(code, Some(2));
-    assert!(
-        errors.contains("with the contacts of [workload.grip]"),
-        "{errors}"
-    );
+    has(&errors, "with the contacts of [workload.grip]");
 }

@@ -1,6 +1,6 @@
 //! `ozols analyze --certificate` and `ozols verify`.
 
-use crate::common::{out, ozols};
+use crate::common::{has, out, ozols};
 
 fn code_and_words(args: &[&str]) -> (Option<i32>, String, String) {
     let o = ozols(args).output().unwrap();
@@ -27,9 +27,9 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
     // Of another mechanism, with the same states.
     let (code, said, err) = code_and_words(&["verify", "gripper-10-redesign", path]);
     assert_eq!((code, err.as_str()), (Some(1), ""));
-    assert!(
-        said.contains("state free: certificate rejected: it is about a 24 x 14 matrix"),
-        "{said}"
+    has(
+        &said,
+        "state free: certificate rejected: it is about a 24 x 14 matrix",
     );
     // Of the same in a plane.
     let (code, _, _) = code_and_words(&["verify", "gripper-10", path, "--planar"]);
@@ -48,11 +48,11 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
         std::fs::write(path, garbled).unwrap();
         let (code, said, err) = code_and_words(&["verify", "gripper-10", path]);
         assert_eq!((code, said.as_str()), (Some(2), ""));
-        assert!(err.contains("not a file of certificates"), "{err}");
+        has(&err, "not a file of certificates");
     }
     let (code, _, err) = code_and_words(&["verify", "gripper-10", "no-such.json"]);
     assert_eq!(code, Some(2));
-    assert!(err.contains("cannot read no-such.json"), "{err}");
+    has(&err, "cannot read no-such.json");
 }
 
 #[test]
@@ -71,8 +71,11 @@ fn a_field_that_is_too_large_is_said_and_no_error() {
     std::fs::write(&file, fine).unwrap();
     let (code, _, err) = code_and_words(&["analyze", &file, "--certificate", &certificates]);
     assert_eq!(code, Some(0), "{err}");
-    assert!(err.contains("note: no certificate of state free: the roots and angles generate a number field of degree"), "{err}");
+    has(
+        &err,
+        "note: no certificate of state free: the roots and angles generate a number field of degree",
+    );
     let (code, said, _) = code_and_words(&["verify", &file, &certificates]);
     assert_eq!(code, Some(1));
-    assert!(said.contains("state free: no certificate: "), "{said}");
+    has(&said, "state free: no certificate: ");
 }

@@ -1,7 +1,7 @@
 //! Counts on rounded coordinates, and what singular values of the file say of them: no false count is called exact.
 
 use super::search_numeric::{plain, request, turned};
-use crate::common::run_on;
+use crate::common::{Json, has_all, run_on};
 use ozols::accuracy::change::Noise;
 use ozols::score::request::Request;
 use serde_json::Value;
@@ -47,9 +47,10 @@ fn the_program_says_where_singular_values_contradict() {
         stdout
     };
     let text = on("text");
-    for part in ["not exact: ", "singular values contradict at variant ("] {
-        assert!(text.contains(part), "no {part:?} in {text}");
-    }
+    has_all(
+        &text,
+        &["not exact: ", "singular values contradict at variant ("],
+    );
     for word in ["Checked", "Proven"] {
         assert!(!text.contains(word), "{word} in {text}");
     }
@@ -62,12 +63,7 @@ fn the_program_says_where_singular_values_contradict() {
         (&v["exact"], &v["determinate_exact"], &v["certainty"]),
         (&false.into(), &false.into(), &"contradicted".into())
     );
-    assert!(
-        v["second_opinion"]["contradiction"]["largest_dropped"]
-            .as_f64()
-            .unwrap()
-            < 1e-6
-    );
+    assert!(v["second_opinion"]["contradiction"]["largest_dropped"].real() < 1e-6);
     assert_eq!(v["check"]["agree"], Value::Null);
 }
 

@@ -2,7 +2,7 @@
 //! and how many parts and constraints there are.
 
 use super::{figures, read};
-use crate::common::assemblies_of_others;
+use crate::common::{Json, assemblies_of_others};
 use ozols::robots::Options;
 use serde_json::Value;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn mobility_and_redundancy_are_those_of_an_independent_rank() {
     for (name, bytes, v) in expected() {
         let i = read(&name, &bytes, &Options::default());
         let (w, sigma) = figures(&i);
-        let of = |k: &str| usize::try_from(v["own_file"][k].as_u64().unwrap()).unwrap();
+        let of = |k: &str| usize::try_from(v["own_file"][k].whole()).unwrap();
         assert_eq!(w, of("W"), "{name}");
         assert_eq!(sigma + i.report.constraint_rows, of("sigma"), "{name}");
         assert_eq!(
@@ -48,7 +48,7 @@ fn parts_and_constraints_are_counted_as_freecad_counts_them() {
             .report
             .count
             .unwrap();
-        let of = |k: &str| usize::try_from(v[k].as_u64().unwrap()).unwrap();
+        let of = |k: &str| usize::try_from(v[k].whole()).unwrap();
         assert_eq!(
             (count.parts, count.constraints),
             (of("bodies"), of("constraints")),

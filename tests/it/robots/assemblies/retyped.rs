@@ -2,6 +2,7 @@
 
 use super::make::{HINGES, fcstd, four_bar};
 use super::{figures, read};
+use crate::common::has;
 use crate::robots::fix::run;
 use ozols::redundancy::release::Release;
 use ozols::robots::{Options, fix};
@@ -65,10 +66,10 @@ fn fix_keeps_to_the_joints_that_may_be_changed() {
     }
     let (code, _, said) = run(&["fix", &old, "--at", "B", "-o", &path("no.FCStd")]);
     assert_eq!(code, Some(2));
-    assert!(said.contains("no choice of joint types"), "{said}");
+    has(&said, "no choice of joint types");
     let (code, _, said) = run(&["fix", &old, "--at", "Z"]);
     assert_eq!(code, Some(2));
-    assert!(said.contains("there is no such joint"), "{said}");
+    has(&said, "there is no such joint");
 }
 
 // A search may be asked for types that FreeCAD has no joint for; those are not written.
@@ -87,7 +88,7 @@ fn types_that_freecad_has_not_are_refused() {
     ];
     let (code, _, said) = run(&words);
     assert_eq!(code, Some(2), "{said}");
-    assert!(said.contains("has no joint type"), "{said}");
+    has(&said, "has no joint type");
 }
 
 // export writes the same document as fix, of a variant or as it is, and of nothing but a document.
@@ -130,10 +131,10 @@ fn asmt_files_get_other_labels() {
     std::fs::write(&old, &twice).unwrap();
     let (code, out, said) = run(&["lint", &old]);
     assert_eq!(code, Some(1), "{said}");
-    assert!(out.contains("5 redundant constraints"), "{out}");
+    has(&out, "5 redundant constraints");
     let (code, _, said) = run(&["fix", &old, "-o", &path("y.asmt")]);
     assert_eq!(code, Some(2));
-    assert!(said.contains("no choice of joint types"), "{said}");
+    has(&said, "no choice of joint types");
     let i = read("x.asmt", twice.as_bytes(), &Options::default());
     let slide = |direction: [f64; 3]| {
         let joint = i.mechanism.joint_ids().next().unwrap();

@@ -5,6 +5,7 @@ use super::make::{
     packed, part, property,
 };
 use super::{figures, read};
+use crate::common::{Json, has};
 use crate::robots::fix::run;
 use ozols::robots::Options;
 use serde_json::{Value, json};
@@ -28,22 +29,17 @@ fn a_four_bar_holds_three_rows_twice() {
         (&v["mobility"], &v["redundant"], &v["counted"]),
         (&json!(1), &json!(3), &json!(-2))
     );
-    let found = v["findings"].as_array().unwrap();
+    let found = v["findings"].list();
     assert_eq!(found.len(), 3);
-    let rows: Vec<&str> = found.iter().map(|f| f["row"].as_str().unwrap()).collect();
+    let rows: Vec<&str> = found.iter().map(|f| f["row"].word()).collect();
     assert_eq!(rows, ["z", "turn about x", "turn about y"]);
     for f in found {
-        assert_eq!(f["duplicates"].as_array().unwrap().len(), 3);
-        assert!(f["misfit"]["millimetres"].as_f64().unwrap() < 1e-9);
-        assert!(
-            f["file"]
-                .as_str()
-                .unwrap()
-                .ends_with("x.FCStd/Document.xml")
-        );
+        assert_eq!(f["duplicates"].list().len(), 3);
+        assert!(f["misfit"]["millimetres"].real() < 1e-9);
+        assert!(f["file"].word().ends_with("x.FCStd/Document.xml"));
     }
-    let changes = v["changes"].as_array().unwrap();
-    let to: Vec<&str> = changes.iter().map(|c| c["to"].as_str().unwrap()).collect();
+    let changes = v["changes"].list();
+    let to: Vec<&str> = changes.iter().map(|c| c["to"].word()).collect();
     assert_eq!(changes.len(), 2);
     assert!(
         to.contains(&"Ball") && to.contains(&"Cylindrical"),
@@ -62,19 +58,12 @@ fn what_is_open_is_told_in_degrees() {
     a.2 = a.2[..last].to_owned() + &tilted + "</Property>";
     let (code, v) = lint(&bar);
     assert_eq!(code, Some(1));
-    let told = v["approximated"][0].as_str().unwrap();
-    assert!(
-        told.contains("joint \"A\": its two frames are 1.2 degrees apart"),
-        "{told}"
-    );
+    let told = v["approximated"][0].word();
+    has(told, "joint \"A\": its two frames are 1.2 degrees apart");
     assert_eq!(v["over_motion_kind"], "unknown");
-    let of_a = v["findings"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .find(|f| f["constraint"] == "A");
+    let of_a = v["findings"].list().iter().find(|f| f["constraint"] == "A");
     if let Some(f) = of_a {
-        assert!((f["misfit"]["degrees"].as_f64().unwrap() - 1.2).abs() < 1e-9);
+        assert!((f["misfit"]["degrees"].real() - 1.2).abs() < 1e-9);
     }
     // No motion of planar hinges closes it.
     let options = Options {
@@ -109,10 +98,8 @@ fn assemble_closes_what_can_be_closed() {
     let i = read("x.FCStd", &bytes, &options);
     assert_eq!(figures(&i), (1, 3));
     let moved = i.report.moved.join("; ");
-    assert!(
-        moved.contains("closed to") && moved.contains("mm apart in the file"),
-        "{moved}"
-    );
+    has(&moved, "closed to");
+    has(&moved, "mm apart in the file");
     assert!(i.report.approximated.is_empty());
 }
 

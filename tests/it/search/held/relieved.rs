@@ -1,7 +1,7 @@
 //! Unloading joints anywhere, σ by contour, joints of the free state alone, and what to do where nothing is found.
 
 use super::{file, pads, searched};
-use crate::common::{built_in, changed, count, out, run};
+use crate::common::{Json, built_in, changed, count, has, out, run, words};
 use ozols::file::text::mechanism_from_str;
 use ozols::geom::expr::Expr;
 use ozols::model::mechanism::StateId;
@@ -84,14 +84,7 @@ fn an_unloading_joint_has_a_place_of_its_own() {
     assert_eq!(offered, ("cross", Some(StateId::new(1))));
     // The variant is the mechanism with the joint there.
     let to = ["--to", "toml", "--variant", "1", "--state", "clamped"];
-    let more = [
-        "--max-external",
-        "3",
-        "--options",
-        "revolute",
-        "--max-redundant",
-        "11",
-    ];
+    let more = words("--max-external 3 --options revolute --max-redundant 11");
     let written = out(&[&["export", path.as_str()][..], &to, &more].concat());
     let v = mechanism_from_str("v.toml", &written).unwrap();
     let series = &v.joints[v.joint("a-8 unloading").unwrap()];
@@ -100,19 +93,10 @@ fn an_unloading_joint_has_a_place_of_its_own() {
 
 #[test]
 fn variants_say_where_their_redundant_constraints_are() {
-    let question = [
-        "--max-redundant",
-        "2",
-        "--max-external",
-        "5",
-        "--max-changes",
-        "5",
-        "--top",
-        "3",
-    ];
+    let question = words("--max-redundant 2 --max-external 5 --max-changes 5 --top 3");
     let found = searched("gripper-10", &question);
-    for v in found["variants"].as_array().unwrap() {
-        let shares = v["per_contour"].as_array().unwrap();
+    for v in found["variants"].list() {
+        let shares = v["per_contour"].list();
         let number = |c: &serde_json::Value, key: &str| c[key].as_i64().unwrap();
         let sum: i64 = shares.iter().map(|c| number(c, "redundant")).sum();
         assert_eq!(
@@ -122,7 +106,7 @@ fn variants_say_where_their_redundant_constraints_are() {
         for c in shares {
             assert!(number(c, "least") <= number(c, "redundant"));
             assert!(number(c, "redundant") <= number(c, "greatest"));
-            assert!(c["contour"].as_str().unwrap().contains('-'));
+            assert!(c["contour"].word().contains('-'));
         }
     }
     let as_written = |format: &str| {
@@ -140,7 +124,7 @@ fn variants_say_where_their_redundant_constraints_are() {
     );
     assert!(lines.next().unwrap().contains(" to "), "{csv}");
     let none = out(&["search", "gripper-10", "--top", "2"]);
-    assert!(none.contains("σ by contour: none in any"), "{none}");
+    has(&none, "σ by contour: none in any");
 }
 
 /// A rest that the gripper leaves as it clamps: σ_a is σ clamped less σ free.
@@ -158,16 +142,7 @@ fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
     let difference = sigma(1) - sigma(0);
     assert_eq!((e.redundant, e.by_rank), (difference, difference));
     let (_folder, path) = file(text);
-    let present = [
-        "--options",
-        "revolute",
-        "--max-redundant",
-        "30",
-        "--state",
-        "clamped",
-        "--max-changes",
-        "0",
-    ];
+    let present = words("--options revolute --max-redundant 30 --state clamped --max-changes 0");
     let v = searched(&path, &present)["variants"][0].clone();
     assert_eq!(v["external_redundant"].as_i64(), Some(difference));
     assert_eq!(v["agree"], true);
@@ -210,7 +185,7 @@ fn what_helps_a_clamped_search_is_said() {
     let o = run(&[&["search", "gripper-10"][..], &few].concat());
     let text = String::from_utf8(o.stdout).unwrap();
     assert_eq!(o.status.code(), Some(1));
-    assert!(text.contains("--max-external 2\n"), "{text}");
+    has(&text, "--max-external 2\n");
     // What balls alone hold turns between them, in the mechanism as it is and in every variant.
     let loose = pads().replace("type = \"fixed\"", "type = \"spherical\"");
     let loose = &loose[..loose.find("[[expected]]").unwrap()];
@@ -218,8 +193,8 @@ fn what_helps_a_clamped_search_is_said() {
     let o = run(&["search", &path, "--state", "clamped"]);
     let [text, notes] = [o.stdout, o.stderr].map(|b| String::from_utf8(b).unwrap());
     assert_eq!(o.status.code(), Some(1));
-    assert!(notes.contains("a is loose in state"), "{notes}");
-    assert!(text.contains("--allow-loose-object\n"), "{text}");
+    has(&notes, "a is loose in state");
+    has(&text, "--allow-loose-object\n");
 }
 
 /// Where no choice of the options offered is enough, that is said, with the drive that stays as it is.
@@ -230,7 +205,7 @@ fn where_no_option_can_help_that_is_said() {
     assert_eq!(o.status.code(), Some(1));
     let part = "Every joint at the freest of its options leaves σ = 3: no choice of them can do";
     assert!(said.contains(part), "{said}");
-    assert!(said.contains("stays as it is for it is driven"), "{said}");
+    has(&said, "stays as it is for it is driven");
 }
 
 /// The tongs with a ball pivot put at their contact are the tongs with a pad: 1 + 3 motions while nothing is held, for the pad stays

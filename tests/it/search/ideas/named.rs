@@ -1,6 +1,6 @@
 //! An idea and a variant of the same number are two mechanisms, and each says which it is.
 
-use crate::common::{built_in, out, run, text};
+use crate::common::{built_in, has, out, run, text};
 use ozols::model::mechanism::Mechanism;
 use ozols::score::request::{Inserts, Request};
 use ozols::search::answer::ideas::Idea;
@@ -14,15 +14,12 @@ fn named(which: &str, k: &str) -> (String, String) {
 #[test]
 fn files_names_and_titles_say_which() {
     let (idea, drawn) = named("--idea", "3");
-    assert!(idea.contains("name = \"four-bar-idea-3\""), "{idea}");
-    assert!(idea.contains("Idea 3 of four-bar: "), "{idea}");
+    has(&idea, "name = \"four-bar-idea-3\"");
+    has(&idea, "Idea 3 of four-bar: ");
     assert!(drawn.contains("idea 3") && !drawn.contains("variant 3"));
     let (variant, other) = named("--variant", "3");
-    assert!(
-        variant.contains("name = \"four-bar-variant-3\""),
-        "{variant}"
-    );
-    assert!(variant.contains("Variant 3 of four-bar: "), "{variant}");
+    has(&variant, "name = \"four-bar-variant-3\"");
+    has(&variant, "Variant 3 of four-bar: ");
     assert!(other.contains("variant 3") && !other.contains("idea 3"));
     assert_ne!(idea, variant);
 }
@@ -32,10 +29,7 @@ fn what_is_not_there_is_called_what_was_asked_for() {
     for (which, one) in [("--idea", "idea"), ("--variant", "variant")] {
         let o = run(&["draw", "four-bar", which, "99"]);
         let said = text(&o.stderr);
-        assert!(
-            said.contains(&format!("four-bar has no {one} 99")),
-            "{said}"
-        );
+        has(&said, &format!("four-bar has no {one} 99"));
     }
 }
 

@@ -11,7 +11,7 @@
 //! 1999: a hinge line on a ball and a ball in a bore. [Phillips]: J. Phillips, Freedom in Machinery, 1984: the sliding shaft of a
 //! double Hooke joint.
 
-use crate::common::json;
+use crate::common::{Json, json};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -98,13 +98,13 @@ fn missed(of: &str, wanted: Changes) -> Option<String> {
         .iter()
         .map(|(j, t)| ((*j).to_owned(), (*t).to_owned()))
         .collect();
-    let word = |v: &Value| v.as_str().unwrap().to_owned();
+    let word = |v: &Value| v.word().to_owned();
     let changes = |v: &Value| {
-        let all = v["changes"].as_array().unwrap().iter();
+        let all = v["changes"].list().iter();
         all.map(|c| (word(&c["joint"]), word(&c["to"])))
             .collect::<BTreeMap<_, _>>()
     };
-    let ideas = found["variants"].as_array().unwrap();
+    let ideas = found["variants"].list();
     let known: Vec<_> = ideas.iter().map(changes).collect();
     let all = || format!("{known:?}, not {wanted:?}");
     (!known.contains(&wanted)).then(all)

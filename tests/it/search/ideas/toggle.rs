@@ -1,6 +1,6 @@
 //! A toggle gripper: a plunger, two rods and two jaws. What its file does not say is that one finger is the other's image.
 
-use crate::common::{json, out};
+use crate::common::{Json, has, json, out};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -40,17 +40,12 @@ fn ideas(text: &str) -> Vec<BTreeMap<String, String>> {
     fs::write(&path, text).unwrap();
     let path = path.to_str().unwrap();
     let found = json(&["search", path, "--distinct", "--format", "json"]);
-    let word = |v: &Value| v.as_str().unwrap().to_owned();
+    let word = |v: &Value| v.word().to_owned();
     let changes = |v: &Value| {
-        let all = v["changes"].as_array().unwrap().iter();
+        let all = v["changes"].list().iter();
         all.map(|c| (word(&c["joint"]), word(&c["to"]))).collect()
     };
-    found["variants"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(changes)
-        .collect()
+    found["variants"].list().iter().map(changes).collect()
 }
 
 #[test]
@@ -96,8 +91,5 @@ fn fingers_differ_by_no_more_than_they_must() {
 #[test]
 fn the_text_says_how_many_are_minimal_and_lists_no_idle_additions() {
     let text = out(&["search", "slider-crank-spatial", "--top", "100"]);
-    assert!(
-        text.contains("11 minimal; the other 1 only add idle motion"),
-        "{text}"
-    );
+    has(&text, "11 minimal; the other 1 only add idle motion");
 }
