@@ -1,6 +1,6 @@
 //! What publications say of the mechanisms they show, against what is so.
 
-use crate::common::{Json, built_in, json, near, out, words};
+use crate::common::{Json, built_in, json, near, out, words, written};
 use ozols::drive::torsion::{Bar, CamSpring};
 use serde_json::{Value, json as value};
 use std::collections::BTreeSet;
@@ -170,10 +170,8 @@ fn slips_of_the_shears_are_told_with_what_is_right() {
     assert_eq!(joint("4-7"), ["4", "7"]);
     // The weights of the rods alone have a moment about D.
     let bare = with_weights_of_rods_alone(ozols::builtin::text("parallel-shears").unwrap());
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("rods.toml");
-    std::fs::write(&file, bare).unwrap();
-    let found = json(&["statics", file.to_str().unwrap(), "--format", "json"]);
+    let (_folder, file) = written("rods.toml", bare);
+    let found = json(&["statics", file, "--format", "json"]);
     let h = found["positions"][0]["contour_groups"][0]["methods"]["equilibrium"]["h"].real();
     let zero = claim(&claims, "so h = 0");
     assert!(

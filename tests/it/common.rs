@@ -13,6 +13,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::sync::OnceLock;
+use tempfile::TempDir;
 
 /// A command line: its words, or a text with blanks between them.
 pub(crate) trait Line {
@@ -236,12 +237,19 @@ pub(crate) fn run_on(
     content: &str,
     more: &[&str],
 ) -> (Option<i32>, String, String) {
+    let (_folder, path) = written(name, content);
+    let args = [&[command, path], more].concat();
+    let o = run(&args);
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
+/// Returns a file with this text, by its path, and the folder that it is gone with.
+pub(crate) fn written(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'static str) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     fs::write(&path, content).unwrap();
-    let args = [&[command, path.to_str().unwrap()], more].concat();
-    let o = run(&args);
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
+    // A few bytes until the tests end, for which no caller keeps a second binding.
+    (folder, path.to_str().unwrap().to_owned().leak())
 }
 
 /// A seed that no run before had; a failure tells it.

@@ -1,6 +1,6 @@
 //! What `ozols analyze` says of the drives: which are locked, which work against each other, where the outputs stand still.
 
-use crate::common::{Json, json, ozols};
+use crate::common::{Json, json, ozols, written};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
@@ -75,10 +75,11 @@ fn what_is_meant_is_no_fault() {
     for state in clamped["states"].list() {
         assert_eq!(state["drives"].list().len(), 0, "{}", state["state"]);
     }
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("dead.toml");
-    std::fs::write(&file, ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3)).unwrap();
-    let o = ozols(&["analyze", file.to_str().unwrap(), "--format", "json"])
+    let (_folder, file) = written(
+        "dead.toml",
+        ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3),
+    );
+    let o = ozols(&["analyze", file, "--format", "json"])
         .output()
         .unwrap();
     let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();

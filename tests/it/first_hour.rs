@@ -3,7 +3,7 @@
 mod check;
 mod new;
 
-use crate::common::{Json, has, has_all, out, ozols, text};
+use crate::common::{Json, has, has_all, out, ozols, text, written};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
 use ozols::terms::Terms;
@@ -297,10 +297,8 @@ fn every_shell_gets_a_script_and_bash_can_read_its_own() {
             assert!(script.contains(command), "{shell}: {command}");
         }
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("ozols.bash");
-    fs::write(&path, out(&["completions", "bash"])).unwrap();
-    let Ok(o) = Command::new("bash").arg("-n").arg(&path).output() else {
+    let (_folder, path) = written("ozols.bash", out(&["completions", "bash"]));
+    let Ok(o) = Command::new("bash").arg("-n").arg(path).output() else {
         return; // no bash here
     };
     assert!(o.status.success(), "{}", text(&o.stderr));
@@ -311,10 +309,7 @@ fn every_shell_gets_a_script_and_bash_can_read_its_own() {
 
 #[test]
 fn colour_is_off_where_no_terminal_is_and_on_where_it_is_forced() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("bad.toml");
-    fs::write(&path, "name = \"x\"\nlonk = 1\n").unwrap();
-    let bad = path.to_str().unwrap();
+    let (_folder, bad) = written("bad.toml", "name = \"x\"\nlonk = 1\n");
     for args in [
         &["check", bad][..],
         &["analyze", "nosuch"],

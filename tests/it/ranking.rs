@@ -6,7 +6,7 @@ mod geared;
 mod proof;
 mod reasons;
 
-use crate::common::{out, words};
+use crate::common::{out, words, written};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
@@ -409,21 +409,14 @@ fn a_pool_says_how_far_it_is_from_proven() {
 #[test]
 fn that_scores_are_at_rest_is_said_where_there_is_a_speed() {
     let text = ozols::builtin::text("gripper-10-loaded").unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("fast.toml");
-    std::fs::write(
-        &path,
+    let (_folder, path) = written(
+        "fast.toml",
         text.replacen("[workload]", "[workload]\ndrive_speed = 50", 1),
-    )
-    .unwrap();
+    );
     let said = |file: &str| {
         let o = crate::common::run(&format!("search {file} --top 1 --pool 50 --check none"));
         String::from_utf8(o.stderr).unwrap()
     };
-    assert!(
-        said(path.to_str().unwrap()).contains("ranked at rest"),
-        "{}",
-        said(path.to_str().unwrap())
-    );
+    assert!(said(path).contains("ranked at rest"), "{}", said(path));
     assert!(!said("gripper-10-loaded").contains("ranked at rest"));
 }

@@ -1,6 +1,6 @@
 //! Joint reactions of any mechanism: equilibrium, virtual work, frames, linearity, energy, self-stresses.
 
-use crate::common::{built_in, has};
+use crate::common::{built_in, has, written};
 mod command;
 mod couplings;
 mod cycle;
@@ -357,10 +357,8 @@ fn nearly_equal_axes_are_told() {
              [[joint]]\nid = \"B\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 5]\naxis = [0, 0, 1]\n\
              [[joint]]\nid = \"S\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [\"{tilt}\", 0, 1]\n"
         );
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("near.toml");
-        std::fs::write(&path, text).unwrap();
-        crate::common::out(&["statics", path.to_str().unwrap(), "--spatial"])
+        let (_folder, path) = written("near.toml", text);
+        crate::common::out(&["statics", path, "--spatial"])
     };
     let said = with("1/10000000000");
     has(

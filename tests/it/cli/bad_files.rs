@@ -1,6 +1,7 @@
 //! What is wrong with a mechanism file is said with its line, the item and the remedy.
 
 use super::{four_bar, refused};
+use crate::common::written;
 use std::fs;
 
 /// Asserts that a file is refused at the line where `line_with` first stands, with these words.
@@ -403,10 +404,8 @@ fn error_numbers_beyond_all_bounds() {
     ] {
         bad_file("bad.toml", &place(point), "point =", &parts);
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("huge.toml");
-    fs::write(&path, place("[1e300, 0, 0]")).unwrap();
-    let said = refused(&["check", path.to_str().unwrap()], &["1e300"]);
+    let (_folder, path) = written("huge.toml", place("[1e300, 0, 0]"));
+    let said = refused(&["check", path], &["1e300"]);
     assert!(said.lines().all(|l| l.len() < 200), "{said}");
 }
 

@@ -2,7 +2,7 @@
 
 use super::bad_files::bad_file;
 use super::{four_bar, refused};
-use crate::common::{json, out};
+use crate::common::{json, out, written};
 use serde_json::Value;
 use std::fs;
 
@@ -13,10 +13,7 @@ fn four_bar_json() -> String {
 
 #[test]
 fn json_is_read_like_toml() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("four-bar.json");
-    fs::write(&path, four_bar_json()).unwrap();
-    let path = path.to_str().unwrap();
+    let (_folder, path) = written("four-bar.json", four_bar_json());
     // What to do next names the file.
     let from = |file: &str| json(&["analyze", file, "--format", "json"])["states"].take();
     assert_eq!(from(path), from("four-bar"));

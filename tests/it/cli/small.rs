@@ -1,7 +1,7 @@
 //! Names, tables, files and pipes that are not as one expects.
 
 use super::refused;
-use crate::common::{changed, has, out, ozols, run, text};
+use crate::common::{changed, has, out, ozols, run, text, written};
 use std::fs;
 
 /// ESC colours a terminal and worse, CR hides what came before, NUL ends strings of other programs.
@@ -201,11 +201,9 @@ fn couplings_out_of_the_plane_are_left_out_and_said() {
         "point = [0, 0, 0]\naxis = [1, 0, 0]",
     );
     let coupled = format!("{tilted}\n[[coupling]]\njoints = [\"0-1\", \"3-0\"]\nratio = 2\n");
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("x.toml");
-    fs::write(&file, coupled).unwrap();
+    let (_folder, file) = written("x.toml", coupled);
     for more in [&[][..], &["--method", "svd"], &["--method", "count-planar"]] {
-        let args = [&["analyze", file.to_str().unwrap(), "--planar"], more].concat();
+        let args = [&["analyze", file, "--planar"], more].concat();
         let o = run(&args);
         let said = text(&o.stderr);
         assert_eq!(o.status.code(), Some(0), "{args:?} {said}");

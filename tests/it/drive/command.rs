@@ -2,7 +2,7 @@
 
 mod moments;
 
-use crate::common::{Json, changed, has, has_all, near, run_on};
+use crate::common::{Json, changed, has, has_all, near, run_on, written};
 use crate::common::{json, out, ozols};
 use serde_json::Value;
 use std::fs;
@@ -359,15 +359,10 @@ axis = [0, 0, 5]
 
 #[test]
 fn files_of_tables_alone_can_be_checked() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("turner.toml");
-    fs::write(&path, SMALL).unwrap();
-    assert_eq!(
-        out(&["check", path.to_str().unwrap()]),
-        "turner: workload drive: valid\n"
-    );
-    fs::write(&path, small_with("inertia = 0.23", "inertia = 0")).unwrap();
-    let o = ozols(&["check", path.to_str().unwrap()]).output().unwrap();
+    let (_folder, path) = written("turner.toml", SMALL);
+    assert_eq!(out(&["check", path]), "turner: workload drive: valid\n");
+    fs::write(path, small_with("inertia = 0.23", "inertia = 0")).unwrap();
+    let o = ozols(&["check", path]).output().unwrap();
     assert_eq!(o.status.code(), Some(2));
 }
 

@@ -1,9 +1,8 @@
 //! `check` says what a file describes, and what in it is likely a slip.
 
 use super::run;
-use crate::common::{has, has_all, out};
+use crate::common::{has, has_all, out, written};
 use ozols::builtin;
-use std::fs;
 
 // check
 
@@ -15,10 +14,8 @@ fn four_bar_with(from: &str, to: &str) -> String {
 
 /// Checks a text that can be used: what is said on standard output and on standard error.
 fn checked(text: &str) -> (String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    fs::write(&path, text).unwrap();
-    let (code, said, warned) = run(&["check", path.to_str().unwrap()]);
+    let (_folder, path) = written("mine.toml", text);
+    let (code, said, warned) = run(&["check", path]);
     assert_eq!(code, Some(0), "{warned}");
     (said, warned)
 }
@@ -198,10 +195,8 @@ fn check_doubts_built_in_mechanisms_only_with_reason() {
 
 #[test]
 fn check_is_quiet_when_asked() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    fs::write(&path, four_bar_with("redundant = 3", "redundant = 2")).unwrap();
-    let (code, said, warned) = run(&["check", "--quiet", path.to_str().unwrap()]);
+    let (_folder, path) = written("mine.toml", four_bar_with("redundant = 3", "redundant = 2"));
+    let (code, said, warned) = run(&["check", "--quiet", path]);
     assert_eq!((code, warned.as_str()), (Some(0), ""));
     has(&said, "1 warning");
 }

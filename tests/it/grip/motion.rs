@@ -1,22 +1,15 @@
 //! The clamping force along a motion.
 
-use crate::common::{Json, has, json, near, ozols, text};
+use crate::common::{Json, has, json, near, ozols, text, written};
 use serde_json::Value;
-use std::fs;
 
 fn number(v: &Value) -> f64 {
     v.real()
 }
 
 fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("lift.csv");
-    fs::write(&path, table).unwrap();
-    let args = [
-        &["grip", "lever-gripper", "--motion", path.to_str().unwrap()],
-        more,
-    ]
-    .concat();
+    let (_folder, path) = written("lift.csv", table);
+    let args = [&["grip", "lever-gripper", "--motion", path], more].concat();
     let o = ozols(&args).output().unwrap();
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }

@@ -1,11 +1,10 @@
 //! Variants in other poses of the present motion.
 
-use crate::common::{Json, has_all, json, out, ozols};
+use crate::common::{Json, has_all, json, out, ozols, written};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::{Method, analyse};
 use serde_json::Value;
-use std::fs;
 
 const BALANCE: [&str; 8] = [
     "search",
@@ -80,11 +79,9 @@ fn which_link_has_which_pin_matters() {
     let text = out(&["show", "roberval-balance"]);
     let swapped = text.replace("links = [\"3\", \"0\"]", "links = [\"0\", \"3\"]");
     assert_ne!(text, swapped);
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("swapped.toml");
-    fs::write(&path, swapped).unwrap();
+    let (_folder, path) = written("swapped.toml", swapped);
     let args = ["--format", "json", "--all", "--poses", "4"];
-    let v = json(&[&["search", path.to_str().unwrap()][..], &args].concat());
+    let v = json(&[&["search", path][..], &args].concat());
     let lucky = |joint: &str| {
         let list = v["variants"].list().iter();
         list.filter(|x| x["lucky"] == true)

@@ -1,6 +1,6 @@
 //! Singular poses near the ends of a stroke.
 
-use crate::common::{Json, json};
+use crate::common::{Json, json, written};
 
 /// A singular pose is found wherever the stroke ends: the parallelogram is flat at 90° to either side of the pose of the file.
 #[test]
@@ -25,9 +25,7 @@ fn singular_poses_near_an_end_are_found() {
             id == "0-1"
         );
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("parallelogram.toml");
-    std::fs::write(&path, text).unwrap();
+    let (_folder, path) = written("parallelogram.toml", text);
     for (stroke, times) in [
         ("1:1.6:3", 1),
         ("0:-91deg:1", 1),
@@ -39,10 +37,7 @@ fn singular_poses_near_an_end_are_found() {
         ("95deg:170deg:5", 0),
     ] {
         let stroke = format!("--stroke={stroke}");
-        let found = json(&format!(
-            "analyze {} {stroke} --format json",
-            path.display()
-        ));
+        let found = json(&format!("analyze {} {stroke} --format json", path));
         let changes = found["stroke"]["changes"].list();
         assert_eq!(changes.len(), times, "{stroke}: {changes:?}");
     }

@@ -1,7 +1,7 @@
 //! Ranking from the command line and from the file.
 
 use super::{cheapest, loaded, near, search};
-use crate::common::{Json, has, json, out, ozols};
+use crate::common::{Json, has, json, out, ozols, written};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::Mechanism;
@@ -106,10 +106,8 @@ fn bad_rankings_are_refused_with_line_item_and_remedy() {
             &["unknown joint type \"ball\"", "spherical"],
         ),
     ] {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("bad.toml");
-        std::fs::write(&path, text).unwrap();
-        let o = ozols(&["search", path.to_str().unwrap()]).output().unwrap();
+        let (_folder, path) = written("bad.toml", text);
+        let o = ozols(&["search", path]).output().unwrap();
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
         has(&said, "bad.toml:");

@@ -1,6 +1,6 @@
 //! The command `statics` for spatial mechanisms.
 
-use crate::common::{Json, has, json, out, ozols};
+use crate::common::{Json, has, json, out, ozols, written};
 use ozols::builtin;
 
 #[test]
@@ -47,12 +47,8 @@ fn bad_workloads_are_refused_with_line_item_and_remedy() {
             &["unknown link \"x\""],
         ),
     ] {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("bad.toml");
-        std::fs::write(&path, format!("{good}\n{more}")).unwrap();
-        let o = ozols(&["statics", path.to_str().unwrap()])
-            .output()
-            .unwrap();
+        let (_folder, path) = written("bad.toml", format!("{good}\n{more}"));
+        let o = ozols(&["statics", path]).output().unwrap();
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
         has(&said, "bad.toml:");

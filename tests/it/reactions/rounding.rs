@@ -1,6 +1,6 @@
 //! Figures of forces that are rounding and nothing else are 0, in text, JSON and CSV.
 
-use crate::common::{fresh, run, text};
+use crate::common::{fresh, run, text, written};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::builtin;
@@ -167,10 +167,8 @@ fn a_misalignment_is_not_passed_over() {
         let askew = format!(
             "\n[workload.stiffness.default]\nlinear = 1e7\nangular = 1e4\n[[workload.misalignment]]\njoint = {joint}\nangle = 0.001\naxis = \"x\"\n"
         );
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("askew.toml");
-        std::fs::write(&path, text_of.to_owned() + &askew).unwrap();
-        let said = text(&run(&["statics", path.to_str().unwrap()]).stdout);
+        let (_folder, path) = written("askew.toml", text_of.to_owned() + &askew);
+        let said = text(&run(&["statics", path]).stdout);
         assert!(
             said.contains("states no loads but 1 misalignment"),
             "{name}: {said}"

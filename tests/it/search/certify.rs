@@ -1,6 +1,6 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::common::{Json, built_in, has, has_all, json, out, ozols};
+use crate::common::{Json, built_in, has, has_all, json, out, ozols, written};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
@@ -11,7 +11,6 @@ use ozols::search::check::singular_values;
 use ozols::search::question::Question;
 use ozols::search::question::conditions::{Conditions, InState};
 use serde_json::Value;
-use std::fs;
 
 /// The four-bar with one axis tilted out of parallel by a number that a prime near 2^61 divides.
 fn tilted() -> String {
@@ -118,10 +117,7 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
 
 #[test]
 fn a_variant_that_two_methods_see_differently_is_marked() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("shaky.toml");
-    fs::write(&path, shaky()).unwrap();
-    let path = path.to_str().unwrap();
+    let (_folder, path) = written("shaky.toml", shaky());
     let said = |more: &[&str]| {
         let o = ozols(&[&["search", path][..], more].concat())
             .output()
@@ -163,10 +159,8 @@ fn a_variant_that_two_methods_see_differently_is_marked() {
 
 #[test]
 fn nearly_singular_variants_are_marked() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("near.toml");
-    fs::write(&path, shaky().replace("1e-11", "1e-6")).unwrap();
-    let text = out(&["search", path.to_str().unwrap()]);
+    let (_folder, path) = written("near.toml", shaky().replace("1e-11", "1e-6"));
+    let text = out(&["search", path]);
     has(&text, "nearly singular");
     has(&text, "Singular values agree");
 }
@@ -188,10 +182,8 @@ fn a_long_list_says_where_the_checking_ends() {
 
 /// Writes a mechanism and searches it: (exit code, standard output, standard error).
 fn search(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("it.toml");
-    fs::write(&path, text).unwrap();
-    let args = [&["search", path.to_str().unwrap()], more].concat();
+    let (_folder, path) = written("it.toml", text);
+    let args = [&["search", path], more].concat();
     let o = ozols(&args).output().unwrap();
     let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
     (o.status.code(), text(o.stdout), text(o.stderr))

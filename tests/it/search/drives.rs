@@ -2,6 +2,7 @@
 //!
 //! The counts of built-in mechanisms are those of a trial that looked at every variant over another prime field, with code of its own.
 
+use crate::common::written;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::{JointId, Mechanism};
 use ozols::redundancy::analysis::exact_field;
@@ -181,14 +182,11 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
 /// Where no variant has as many motions as drives, that is an answer and no error.
 #[test]
 fn nothing_found_with_independent_drives_is_an_answer() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("gantry.toml");
-    std::fs::write(
-        &file,
+    let (_folder, file) = written(
+        "gantry.toml",
         GANTRY.replace("\"fixed\", \"slotted\", {", "\"fixed\", {"),
-    )
-    .unwrap();
-    let words = ["search", file.to_str().unwrap(), "--drives", "independent"];
+    );
+    let words = ["search", file, "--drives", "independent"];
     let o = crate::common::ozols(&words).output().unwrap();
     assert_eq!(o.status.code(), Some(1), "{o:?}");
     let count = [&words[..], &["--count", "--format", "json", "-q"]].concat();

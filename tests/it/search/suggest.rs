@@ -1,6 +1,6 @@
 //! Single changes, against building each and analysing it.
 
-use crate::common::{Json, has, has_all, json, out, ozols};
+use crate::common::{Json, has, has_all, json, out, ozols, written};
 use ozols::builtin;
 use ozols::file::text::mechanism_from_str;
 use ozols::model::joint_type::JointType;
@@ -267,11 +267,9 @@ fn a_determinate_mechanism_needs_none() {
 // A file with a space in its name is quoted; standard input cannot be read again.
 #[test]
 fn commands_can_be_typed() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("my gripper.toml");
-    std::fs::write(&file, builtin::text("gripper-10").unwrap()).unwrap();
-    let text = out(&["analyze", file.to_str().unwrap()]);
-    has(&text, &format!("ozols search '{}'\n", file.display()));
+    let (_folder, file) = written("my gripper.toml", builtin::text("gripper-10").unwrap());
+    let text = out(&["analyze", file]);
+    has(&text, &format!("ozols search '{}'\n", file));
     let piped = ozols(&["analyze", "-"])
         .write_stdin(builtin::text("gripper-10").unwrap())
         .output()

@@ -1,6 +1,6 @@
 //! Files that offer no joint types, joint types that would help, and symmetry that no file names.
 
-use crate::common::{Json, count, json, ozols, words};
+use crate::common::{Json, count, json, ozols, words, written};
 use serde_json::Value;
 
 /// Returns the JSON of a command whatever its exit code, and that code.
@@ -102,10 +102,7 @@ options = ["revolute", "cylindrical"]
 /// other the last: neither of the types that the file offers does.
 #[test]
 fn the_type_that_opens_a_search_is_named_and_does() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("two-arms.toml");
-    std::fs::write(&file, TWO_ARMS).unwrap();
-    let file = file.to_str().unwrap();
+    let (_folder, file) = written("two-arms.toml", TWO_ARMS);
     let o = ozols(&["search", file]).output().unwrap();
     assert_eq!(o.status.code(), Some(1));
     let text = String::from_utf8(o.stdout).unwrap();
@@ -206,12 +203,8 @@ fn symmetric_variants_of_joints_at_one_place_are_found() {
 /// What is not its own image is refused, and nothing is guessed.
 #[test]
 fn an_unsymmetric_mechanism_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("hand.toml");
-    std::fs::write(&file, hand(3).replace("[-20, 30, 0]", "[-21, 30, 0]")).unwrap();
-    let o = ozols(&["search", file.to_str().unwrap(), "--symmetric"])
-        .output()
-        .unwrap();
+    let (_folder, file) = written("hand.toml", hand(3).replace("[-20, 30, 0]", "[-21, 30, 0]"));
+    let o = ozols(&["search", file, "--symmetric"]).output().unwrap();
     assert_eq!(o.status.code(), Some(2));
     assert!(o.stdout.is_empty());
 }

@@ -1,23 +1,15 @@
 //! Grips that cannot be: refused, or told.
 
 use super::text;
-use crate::common::{has, ozols};
+use crate::common::{has, ozols, written};
 use serde_json::Value;
 
 /// Writes a file, runs commands on it, and gives exit code, output and errors.
 pub(super) fn run(text: &str, args: &[&str]) -> (Option<i32>, String, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("gripper.toml");
-    std::fs::write(&path, text).unwrap();
+    let (_folder, path) = written("gripper.toml", text);
     let args: Vec<&str> = args
         .iter()
-        .map(|a| {
-            if *a == "FILE" {
-                path.to_str().unwrap()
-            } else {
-                a
-            }
-        })
+        .map(|a| if *a == "FILE" { path } else { a })
         .collect();
     let o = ozols(&args).output().unwrap();
     let said = |b: Vec<u8>| String::from_utf8(b).unwrap();

@@ -1,9 +1,8 @@
 //! A toggle gripper: a plunger, two rods and two jaws. What its file does not say is that one finger is the other's image.
 
-use crate::common::{Json, has, json, out};
+use crate::common::{Json, has, json, out, written};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
 
 /// The file; fingers are each other's mirror image, or half a turn.
 pub(super) fn gripper(type_of_plunger: &str, turned: bool, options: &str) -> String {
@@ -35,10 +34,7 @@ pub(super) fn gripper(type_of_plunger: &str, turned: bool, options: &str) -> Str
 
 /// The changes of each idea, by joint.
 fn ideas(text: &str) -> Vec<BTreeMap<String, String>> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("toggle.toml");
-    fs::write(&path, text).unwrap();
-    let path = path.to_str().unwrap();
+    let (_folder, path) = written("toggle.toml", text);
     let found = json(&["search", path, "--distinct", "--format", "json"]);
     let word = |v: &Value| v.word().to_owned();
     let changes = |v: &Value| {
