@@ -243,6 +243,20 @@ pub(crate) fn run_on(
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }
 
+/// Returns the rows of a table: one a line, bars between their cells, and `\n` for the end of a line within a cell.
+pub(crate) fn cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
+    let row = |line: &str| {
+        let line: &str = line.replace("\\n", "\n").leak();
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        cells.try_into().unwrap_or_else(|c| panic!("{c:?}"))
+    };
+    table
+        .lines()
+        .filter(|l| !l.trim().is_empty())
+        .map(row)
+        .collect()
+}
+
 /// Returns a file with this text, by its path, and the folder that it is gone with.
 pub(crate) fn written(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'static str) {
     let folder = tempfile::tempdir().unwrap();

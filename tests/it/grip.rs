@@ -8,7 +8,7 @@ mod holding;
 mod motion;
 mod published;
 
-use crate::common::{Json, changed, has, near, run_on};
+use crate::common::{Json, cases, changed, has, near, run_on};
 use crate::common::{json, out};
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::{Lever, LeverError};
@@ -246,98 +246,30 @@ fn what_cannot_be_held_is_said_with_the_reason() {
 
 #[test]
 fn bad_tables_are_refused_where_they_stand() {
-    for (from, to, line, part) in [
-        (
-            "mass = 2",
-            "mass = -2",
-            "mass = -2",
-            "mass -2 is out of range; give a number above 0",
-        ),
-        ("mass = 2", "mass = nan", "mass = nan", "finite"),
-        (
-            "mass = 2",
-            "",
-            "gravity",
-            "gravity needs the mass of the part",
-        ),
-        (
-            "mass = 2",
-            "mass = 2\ndensity = 7850",
-            "mass = 2",
-            "mass cannot stand beside density",
-        ),
-        (
-            "mass = 2",
-            "density = 7850",
-            "density",
-            "density needs part_length",
-        ),
-        ("friction = 0", "", "mass = 2", "mass needs friction"),
-        (
-            "friction = 0",
-            "friction = -0.1",
-            "friction",
-            "a coefficient from 0 to 10",
-        ),
-        (
-            "friction = 0",
-            "friction = 0\nsafety = 0.5",
-            "safety",
-            "a factor from 1",
-        ),
-        (
-            "\"120deg\"",
-            "180",
-            "prism_angle",
-            "180 degrees is out of range",
-        ),
-        ("\"120deg\"", "\"soon\"", "prism_angle", "unknown word"),
-        ("\"pi/6\"", "-5", "mounting_angle", "an angle from 0 to 179"),
-        (
-            "lever_length = 100",
-            "lever_length = 0",
-            "lever_length",
-            "a number above 0",
-        ),
-        (
-            "lever_length = 100",
-            "lever_length = inf",
-            "lever_length",
-            "finite",
-        ),
-        (
-            "lever_length = 100",
-            "lever_len = 100",
-            "lever_len",
-            "unknown field",
-        ),
-        (
-            "diameter = 40",
-            "diameter = 40\ndiameters = []",
-            "diameters",
-            "1 to 1000",
-        ),
-        (
-            "diameter = 40",
-            "diameter = 40\ndiameters = { from = 50, to = 40, count = 3 }",
-            "diameters",
-            "not below `from`",
-        ),
-        (
-            "diameter = 40",
-            "diameter = 40\npivots = \"loose\"",
-            "pivots",
-            "known: fixed, nominal",
-        ),
-        ("[-10, 0, 0]", "\"some\"", "gravity", "known: any"),
-        (
-            "drive_arm = 50",
-            "lever_joints = [\"a\", \"b\"]",
-            "lever_joints",
-            "needs a mechanism in the same file",
-        ),
-        ("\"mm\"", "\"ell\"", "ell", "unknown length unit"),
-    ] {
+    for [from, to, line, part] in cases::<4>(
+        r#"
+        mass = 2 | mass = -2 | mass = -2 | mass -2 is out of range; give a number above 0
+        mass = 2 | mass = nan | mass = nan | finite
+        mass = 2 |  | gravity | gravity needs the mass of the part
+        mass = 2 | mass = 2\ndensity = 7850 | mass = 2 | mass cannot stand beside density
+        mass = 2 | density = 7850 | density | density needs part_length
+        friction = 0 |  | mass = 2 | mass needs friction
+        friction = 0 | friction = -0.1 | friction | a coefficient from 0 to 10
+        friction = 0 | friction = 0\nsafety = 0.5 | safety | a factor from 1
+        "120deg" | 180 | prism_angle | 180 degrees is out of range
+        "120deg" | "soon" | prism_angle | unknown word
+        "pi/6" | -5 | mounting_angle | an angle from 0 to 179
+        lever_length = 100 | lever_length = 0 | lever_length | a number above 0
+        lever_length = 100 | lever_length = inf | lever_length | finite
+        lever_length = 100 | lever_len = 100 | lever_len | unknown field
+        diameter = 40 | diameter = 40\ndiameters = [] | diameters | 1 to 1000
+        diameter = 40 | diameter = 40\ndiameters = { from = 50, to = 40, count = 3 } | diameters | not below `from`
+        diameter = 40 | diameter = 40\npivots = "loose" | pivots | known: fixed, nominal
+        [-10, 0, 0] | "some" | gravity | known: any
+        drive_arm = 50 | lever_joints = ["a", "b"] | lever_joints | needs a mechanism in the same file
+        "mm" | "ell" | ell | unknown length unit
+"#,
+    ) {
         let text = small_with(from, to);
         let (code, said, errors) = run_file(&text, &[]);
         assert_eq!((code, said.as_str()), (Some(2), ""), "{to}: {errors}");

@@ -1,60 +1,76 @@
 //! What is wrong with a mechanism file is said with its line, the item and the remedy.
 
 use super::{four_bar, refused};
-use crate::common::written;
-use std::fs;
+use crate::common::{cases, changed, has, written};
 
 /// Asserts that a file is refused at the line where `line_with` first stands, with these words.
 pub(super) fn bad_file(name: &str, content: &str, line_with: &str, parts: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(name);
-    fs::write(&path, content).unwrap();
+    let (_folder, path) = written(name, content);
+    let line = content.lines().position(|l| l.contains(line_with)).unwrap() + 1;
     for command in ["check", "analyze", "search"] {
-        let said = refused(&[command, path.to_str().unwrap()], parts);
-        assert!(said.contains(name), "{said}");
-        let line = content.lines().position(|l| l.contains(line_with)).unwrap() + 1;
-        assert!(
-            said.contains(&format!("{name}:{line}:")),
-            "no line {line} in: {said}"
+        has(
+            &refused(&[command, path], parts),
+            &format!("{name}:{line}:"),
         );
     }
 }
 
 /// The four-bar with one text replaced, which must be there.
 pub(super) fn with(from: &str, to: &str) -> String {
-    let text = four_bar();
-    assert!(text.contains(from), "{from}");
-    text.replacen(from, to, 1)
+    changed(&four_bar(), from, to)
 }
 
 // What can be wrong with a file.
 
+/// What is replaced, with what, where the line is that is told, and what is said of it, two parts with `&` between them.
 #[test]
-fn error_unknown_link() {
-    bad_file(
-        "bad.toml",
-        &with("[\"2\", \"3\"]", "[\"2\", \"zz\"]"),
-        "zz",
-        &["unknown link \"zz\"", "known links: 0, 1, 2, 3"],
-    );
-}
-
-#[test]
-fn error_duplicate_ids() {
-    let text = with("id = \"2-3\"", "id = \"1-2\"  # again");
-    bad_file(
-        "bad.toml",
-        &text,
-        "# again",
-        &["joint has the id \"1-2\" twice"],
-    );
-    let text = with("id = \"3\"", "id = \"2\"  # again");
-    bad_file(
-        "bad.toml",
-        &text,
-        "# again",
-        &["link has the id \"2\" twice"],
-    );
+fn what_is_wrong_in_a_file_is_told_with_its_line() {
+    for [from, to, line, said] in cases::<4>(
+        r#"
+        ["2", "3"] | ["2", "zz"] | zz | unknown link "zz" & known links: 0, 1, 2, 3
+        id = "2-3" | id = "1-2"  # again | # again | joint has the id "1-2" twice
+        id = "3" | id = "2"  # again | # again | link has the id "2" twice
+        id = "2-3" | id = "" | id = "" | 1 to 64 characters
+        ["2", "3"] | ["2", "2"] | ["2", "2"] | "2-3" connects link "2" to itself
+        [[contour]] | [[link]]\nid = "p"\n[[link]]\nid = "q"\n[[joint]]\nid = "p-q"\nlinks = ["p", "q"]\ntype = "revolute"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[contour]] | id = "p" | link "p" is not connected to the frame & "q"
+        [[joint]] | [[link]]\nid = "lone"\n\n[[joint]] | lone | link "lone" has no joint
+        axis = [0, 0, 1] | axis = [0, 0, 0.0] | 0, 0.0] | axis of joint "0-1" is zero
+        axis = [0, 0, 1] | axis = [0, 0, 1]\nreference = [0, 0, -2] | reference = | reference of joint "0-1" is parallel
+        type = "revolute" | type = "hinge" | hinge" | unknown joint type "hinge" & revolute, prismatic, helical, cylindrical, universal & spherical & custom
+        "mm" | "furlong" | furlong | unknown length unit "furlong" & m, mm, cm, um, in
+        role = "output" | role = "tool" | "tool" | unknown role "tool" & frame, output, object
+        length_unit | mode = "flat"\nlength_unit | "flat" | unknown mode "flat" & spatial, planar
+        drive = true | options = ["revolute", "prismatic"] | "prismatic" | option "prismatic" of joint "0-1" & present revolute
+        role = "frame" | | [[link]] | no link has the role "frame"
+        role = "output" | role = "frame" # 2 | # 2 | link "3" is a second frame after "0"
+        "0-1", "1-2", "2-3", "3-0" | "0-1", "1-2", "2-3" | joints = [ | closed walk
+        "2-3", "3-0" | "2-3", "9-9" | 9-9 | unknown joint "9-9" & 0-1, 1-2, 2-3, 3-0
+        id = "2-3" | id = = "2-3" | = = |
+        drive = true | driven = true | driven | driven
+        drive = true | drive = 7 | drive = 7 | true, false or the freedom that is driven
+        [80, 90, 0] | [80, 90] | [80, 90] |
+        [80, 90, 0] | [80, true, 0] | [80, true, 0] | expected a number
+        [80, 90, 0] | [80, nan, 0] | [80, | finite
+        [80, 90, 0] | [80, inf, 0] | [80, | finite
+        [80, 90, 0] | [80, 1e308, 0] | [80, | out of range
+        [80, 90, 0] | [80, 1e-100, 0] | [80, | out of range
+        [80, 90, 0] | [80, "1e-9^60", 0] | [80, | out of range
+        [80, 90, 0] | [80, "sqrt(-1)", 0] | [80, | square root of a negative number
+        [80, 90, 0] | [80, "1/0", 0] | [80, | division by zero
+        [80, 90, 0] | [80, "tan(90deg)", 0] | [80, |
+        [80, 90, 0] | [80, "sqr(2)", 0] | [80, | unknown word `sqr`
+        [80, 90, 0] | [80, "", 0] | [80, | empty
+        [80, 90, 0] | [80, 99999999999999999999, 0] | [80, | number
+        "#,
+    ) {
+        let said: Vec<&str> = said.split(" & ").collect();
+        bad_file("bad.toml", &with(from, to), line, &said);
+    }
+    // Several at once.
+    let text = with("[\"2\", \"3\"]", "[\"2\", \"zz\"]");
+    let text = text.replacen("type = \"revolute\"", "type = \"hinge\"", 1);
+    let parts = ["unknown link \"zz\"", "unknown joint type \"hinge\""];
+    bad_file("bad.toml", &text, "hinge\"", &parts);
 }
 
 #[test]
@@ -81,89 +97,6 @@ fn error_more_than_one_image() {
         let said = format!("joint \"1-2\" has more than one image under {way}");
         let parts = [said.as_str(), "name each joint once there"];
         bad_file("bad.toml", &text, "# twice", &parts);
-    }
-}
-
-#[test]
-fn error_empty_id() {
-    bad_file(
-        "bad.toml",
-        &with("id = \"2-3\"", "id = \"\""),
-        "id = \"\"",
-        &["1 to 64 characters"],
-    );
-}
-
-#[test]
-fn error_self_loop() {
-    bad_file(
-        "bad.toml",
-        &with("[\"2\", \"3\"]", "[\"2\", \"2\"]"),
-        "[\"2\", \"2\"]",
-        &["\"2-3\" connects link \"2\" to itself"],
-    );
-}
-
-#[test]
-fn error_disconnected() {
-    let joint = "[[link]]\nid = \"p\"\n\n[[link]]\nid = \"q\"\n\n[[joint]]\nid = \"p-q\"\nlinks = [\"p\", \"q\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\n[[contour]]";
-    bad_file(
-        "bad.toml",
-        &with("[[contour]]", joint),
-        "id = \"p\"",
-        &["link \"p\" is not connected to the frame", "free", "\"q\""],
-    );
-}
-
-#[test]
-fn error_unused_link() {
-    bad_file(
-        "bad.toml",
-        &with("[[joint]]", "[[link]]\nid = \"lone\"\n\n[[joint]]"),
-        "lone",
-        &["link \"lone\" has no joint"],
-    );
-}
-
-#[test]
-fn error_zero_axis() {
-    bad_file(
-        "bad.toml",
-        &with("axis = [0, 0, 1]", "axis = [0, 0, 0.0]"),
-        "0, 0.0]",
-        &["axis of joint \"0-1\" is zero"],
-    );
-}
-
-#[test]
-fn error_parallel_reference() {
-    let text = with(
-        "axis = [0, 0, 1]",
-        "axis = [0, 0, 1]\nreference = [0, 0, -2]",
-    );
-    bad_file(
-        "bad.toml",
-        &text,
-        "reference =",
-        &["reference of joint \"0-1\" is parallel"],
-    );
-}
-
-#[test]
-fn error_coordinates() {
-    for (word, part) in [
-        ("nan", "finite"),
-        ("inf", "finite"),
-        ("1e308", "out of range"),
-        ("1e-100", "out of range"),
-        ("\"sqrt(-1)\"", "square root of a negative number"),
-        ("\"1/0\"", "division by zero"),
-        ("\"tan(90deg)\"", ""),
-        ("\"sqr(2)\"", "unknown word `sqr`"),
-        ("\"\"", "empty"),
-    ] {
-        let text = with("[80, 90, 0]", &format!("[80, {word}, 0]"));
-        bad_file("bad.toml", &text, "[80, ", &[part]);
     }
 }
 
@@ -195,181 +128,6 @@ fn a_parameter_stands_for_its_number() {
         m.joints.iter().map(one).collect::<Vec<_>>()
     };
     assert_eq!(points(&text), points(&four_bar()));
-}
-
-#[test]
-fn error_coordinate_overflow() {
-    bad_file(
-        "bad.toml",
-        &with("[80, 90, 0]", "[80, 99999999999999999999, 0]"),
-        "[80, ",
-        &[],
-    );
-}
-
-#[test]
-fn error_unknown_type() {
-    let text = with("type = \"revolute\"", "type = \"hinge\"");
-    let parts = [
-        "unknown joint type \"hinge\"",
-        "revolute, prismatic, helical, cylindrical, universal",
-        "spherical",
-        "custom",
-    ];
-    bad_file("bad.toml", &text, "hinge\"", &parts);
-}
-
-#[test]
-fn error_other_words() {
-    bad_file(
-        "bad.toml",
-        &with("\"mm\"", "\"furlong\""),
-        "furlong",
-        &["unknown length unit \"furlong\"", "m, mm, cm, um, in"],
-    );
-    bad_file(
-        "bad.toml",
-        &with("role = \"output\"", "role = \"tool\""),
-        "\"tool\"",
-        &["unknown role \"tool\"", "frame, output, object"],
-    );
-    let text = with("length_unit", "mode = \"flat\"\nlength_unit");
-    bad_file(
-        "bad.toml",
-        &text,
-        "\"flat\"",
-        &["unknown mode \"flat\"", "spatial, planar"],
-    );
-}
-
-#[test]
-fn error_option_loses_motion() {
-    let text = with("drive = true", "options = [\"revolute\", \"prismatic\"]");
-    bad_file(
-        "bad.toml",
-        &text,
-        "\"prismatic\"",
-        &["option \"prismatic\" of joint \"0-1\"", "present revolute"],
-    );
-}
-
-#[test]
-fn error_no_frame() {
-    bad_file(
-        "bad.toml",
-        &with("role = \"frame\"", ""),
-        "[[link]]",
-        &["no link has the role \"frame\""],
-    );
-}
-
-#[test]
-fn error_second_frame() {
-    bad_file(
-        "bad.toml",
-        &with("role = \"output\"", "role = \"frame\" # 2"),
-        "# 2",
-        &["link \"3\" is a second frame after \"0\""],
-    );
-}
-
-#[test]
-fn error_open_contour() {
-    let text = with(
-        "\"0-1\", \"1-2\", \"2-3\", \"3-0\"",
-        "\"0-1\", \"1-2\", \"2-3\"",
-    );
-    bad_file("bad.toml", &text, "joints = [", &["closed walk"]);
-}
-
-#[test]
-fn error_unknown_joint_in_contour() {
-    let text = with("\"2-3\", \"3-0\"", "\"2-3\", \"9-9\"");
-    bad_file(
-        "bad.toml",
-        &text,
-        "9-9",
-        &["unknown joint \"9-9\"", "0-1, 1-2, 2-3, 3-0"],
-    );
-}
-
-#[test]
-fn error_toml_syntax() {
-    bad_file(
-        "bad.toml",
-        &with("id = \"2-3\"", "id = = \"2-3\""),
-        "= =",
-        &[],
-    );
-}
-
-#[test]
-fn error_unknown_key() {
-    bad_file(
-        "bad.toml",
-        &with("drive = true", "driven = true"),
-        "driven",
-        &["driven"],
-    );
-}
-
-#[test]
-fn error_wrong_type() {
-    bad_file(
-        "bad.toml",
-        &with("drive = true", "drive = 7"),
-        "drive = 7",
-        &["true, false or the freedom that is driven"],
-    );
-    bad_file(
-        "bad.toml",
-        &with("[80, 90, 0]", "[80, 90]"),
-        "[80, 90]",
-        &[],
-    );
-    bad_file(
-        "bad.toml",
-        &with("[80, 90, 0]", "[80, true, 0]"),
-        "[80, true, 0]",
-        &["expected a number"],
-    );
-}
-
-#[test]
-fn error_all_at_once() {
-    let text = with("[\"2\", \"3\"]", "[\"2\", \"zz\"]").replacen(
-        "type = \"revolute\"",
-        "type = \"hinge\"",
-        1,
-    );
-    bad_file(
-        "bad.toml",
-        &text,
-        "hinge\"",
-        &["unknown link \"zz\"", "unknown joint type \"hinge\""],
-    );
-}
-
-// Once wrong: a nonzero value that underflows to 0.0 as f64 passes the range check.
-#[test]
-fn error_coordinate_underflow() {
-    bad_file(
-        "bad.toml",
-        &with("[80, 90, 0]", "[80, \"1e-9^60\", 0]"),
-        "[80, ",
-        &["out of range"],
-    );
-}
-
-// BUG (toml through the untagged Coordinate): "invalid type: integer `...` as i128, expected any value".
-#[test]
-fn error_coordinate_overflow_in_words() {
-    bad_file(
-        "bad.toml",
-        &with("[80, 90, 0]", "[80, 99999999999999999999, 0]"),
-        "[80, ",
-        &["number"],
-    );
 }
 
 /// What a file cannot hold is told in short, with what to do.

@@ -1,7 +1,7 @@
 //! Nothing is lost: outputs of one name, outputs that are read, disks and files that are full.
 
 use super::four_bar;
-use crate::common::{has, out, ozols, run, text};
+use crate::common::{cases, has, out, ozols, run, text};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -157,33 +157,20 @@ fn an_included_file_is_not_written_over() {
 fn a_file_that_may_not_grow_is_an_error_with_its_name() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    for (words, name) in [
-        (
-            "search gripper-10 --top 2000 --format csv -o list.csv",
-            "list.csv",
-        ),
-        (
-            "search gripper-10 --top 2000 --format json -o list.json",
-            "list.json",
-        ),
-        (
-            "search gripper-10 --top 2000 --format jsonl",
-            "standard output",
-        ),
-        ("report four-bar -o page.html", "page.html"),
-        (
-            "analyze gripper-10 --certificate proof.json -o t",
-            "proof.json",
-        ),
-        (
-            "statics parallel-shears --stroke 0:360deg:12 --svg charts",
-            "charts/",
-        ),
-        ("draw gripper-10 -o drawn.svg", "drawn.svg"),
-        ("new mine.toml", "mine.toml"),
-        ("catalog build --links 4 --ideas 1 -o c.db", "c.db"),
-        ("--help", "standard output"),
-    ] {
+    for [words, name] in cases::<2>(
+        r"
+        search gripper-10 --top 2000 --format csv -o list.csv | list.csv
+        search gripper-10 --top 2000 --format json -o list.json | list.json
+        search gripper-10 --top 2000 --format jsonl | standard output
+        report four-bar -o page.html | page.html
+        analyze gripper-10 --certificate proof.json -o t | proof.json
+        statics parallel-shears --stroke 0:360deg:12 --svg charts | charts/
+        draw gripper-10 -o drawn.svg | drawn.svg
+        new mine.toml | mine.toml
+        catalog build --links 4 --ideas 1 -o c.db | c.db
+        --help | standard output
+",
+    ) {
         let o = shell(folder, &format!("ulimit -f 1; exec ozols {words} > said"));
         let said = text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{words}: {said}");

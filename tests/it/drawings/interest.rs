@@ -1,6 +1,6 @@
 //! Points of interest: where they are, their ways over the stroke, and what is wrong with some.
 
-use crate::common::{changed, has, out, run_on};
+use crate::common::{cases, changed, has, out, run_on};
 
 /// The numbers of a path, point by point.
 fn points(d: &str) -> Vec<[f64; 2]> {
@@ -105,20 +105,14 @@ fn points_are_shown_in_every_kinematic_drawing() {
 #[test]
 fn what_is_wrong_with_a_point_is_told() {
     let own = out(&["show", "jansen-leg"]);
-    for (from, to, said) in [
-        ("link = \"ghi\"", "link = \"gih\"", "unknown link \"gih\""),
-        (
-            "id = \"foot\"",
-            "id = \"\"",
-            "an id must have 1 to 64 characters",
-        ),
-        ("[-26.53, -91.82, 0]", "[-26.53, -91.82]", "3"),
-        (
-            "[-26.53, -91.82, 0]",
-            "[\"a\", -91.82, 0]",
-            "unknown word `a`",
-        ),
-    ] {
+    for [from, to, said] in cases::<3>(
+        r#"
+        link = "ghi" | link = "gih" | unknown link "gih"
+        id = "foot" | id = "" | an id must have 1 to 64 characters
+        [-26.53, -91.82, 0] | [-26.53, -91.82] | 3
+        [-26.53, -91.82, 0] | ["a", -91.82, 0] | unknown word `a`
+"#,
+    ) {
         let (code, _, err) = run_on("check", "leg.toml", &changed(&own, from, to), &[]);
         assert_eq!(code, Some(2), "{to}");
         assert!(

@@ -2,7 +2,7 @@
 
 mod moments;
 
-use crate::common::{Json, changed, has, has_all, near, run_on, written};
+use crate::common::{Json, cases, changed, has, has_all, near, run_on, written};
 use crate::common::{json, out, ozols};
 use serde_json::Value;
 use std::fs;
@@ -166,140 +166,37 @@ fn discs_that_cannot_swing_are_refused_or_told() {
 
 #[test]
 fn bad_tables_are_refused_where_they_stand() {
-    for (from, to, line, part) in [
-        (
-            "inertia = 0.23",
-            "inertia = 0",
-            "inertia",
-            "a number above 0",
-        ),
-        (
-            "inertia = 0.23",
-            "inertia = -1",
-            "inertia",
-            "a number above 0",
-        ),
-        ("inertia = 0.23", "inertia = nan", "inertia", "finite"),
-        (
-            "inertia = 0.23",
-            "",
-            "[workload.drive]",
-            "drive needs inertia",
-        ),
-        (
-            "inertia = 0.23",
-            "disc_inertia = 0",
-            "disc_inertia",
-            "a disc or a payload",
-        ),
-        (
-            "inertia = 0.23",
-            "inertia = 1\npayload_mass = 2",
-            "payload_mass",
-            "needs payload_radius",
-        ),
-        (
-            "inertia = 0.23",
-            "inertia = 1\ndisc_inertia = 1",
-            "disc_inertia",
-            "cannot stand beside inertia",
-        ),
-        ("period = 0.8", "", "[workload.drive]", "drive needs period"),
-        (
-            "period = 0.8",
-            "period = 0.8\nswing_time = 0.4",
-            "swing_time",
-            "cannot stand beside period",
-        ),
-        ("period = 0.8", "period = inf", "period", "finite"),
-        ("\"pi/2\"", "0", "swing_angle", "an angle above 0"),
-        (
-            "shear_modulus = 8e10",
-            "shear_modulus = 80",
-            "shear_modulus",
-            "such as 8e10 for steel",
-        ),
-        (
-            "missing_angle = 2",
-            "missing_angle = 50",
-            "missing_angle",
-            "below half the swing",
-        ),
-        (
-            "spring_stroke = 15",
-            "cam_efficiency = 0.5",
-            "cam_efficiency",
-            "needs spring_stroke",
-        ),
-        (
-            "spring_stroke = 15",
-            "spring_stroke = 15\ncam_efficiency = 2",
-            "cam_efficiency",
-            "up to 1",
-        ),
-        ("swings = 5", "swings = 0", "swings", "1 to 10000"),
-        (
-            "swings = 5",
-            "motion = \"both\"",
-            "motion",
-            "known: stepwise, reversing",
-        ),
-        ("swings = 5", "programme = [\"3\"]", "programme", "wait 0.3"),
-        (
-            "swings = 5",
-            "swings = 5\nprogramme = [\"1\"]",
-            "swings",
-            "cannot stand beside programme",
-        ),
-        (
-            "swings = 5",
-            "latch_capture = -1",
-            "latch_capture",
-            "an angle from 0",
-        ),
-        (
-            "swings = 5",
-            "feed_from = 50",
-            "feed_from",
-            "within the swing",
-        ),
-        (
-            "swings = 5",
-            "feed_moments = []",
-            "feed_moments",
-            "1 to 1000",
-        ),
-        (
-            "swings = 5",
-            "feed_moments = [[0, 0]]",
-            "feed_moments",
-            "above 0",
-        ),
-        (
-            "swings = 5",
-            "feed_moments = [[0, 1], [20, -1]]",
-            "feed_moments",
-            "0 or a number above it",
-        ),
-        (
-            "swings = 5",
-            "feed_moments = [[10, 1], [10, 2]]",
-            "feed_moments",
-            "beyond that of the piece before",
-        ),
-        (
-            "swings = 5",
-            "feed_moments = [[46, 1]]",
-            "feed_moments",
-            "within the swing",
-        ),
-        (
-            "swings = 5",
-            "feed_energy = 1\nfeed_moments = [[0, 1]]",
-            "feed_energy",
-            "cannot stand beside feed_moments",
-        ),
-    ] {
+    for [from, to, line, part] in cases::<4>(
+        r#"
+        inertia = 0.23 | inertia = 0 | inertia | a number above 0
+        inertia = 0.23 | inertia = -1 | inertia | a number above 0
+        inertia = 0.23 | inertia = nan | inertia | finite
+        inertia = 0.23 |  | [workload.drive] | drive needs inertia
+        inertia = 0.23 | disc_inertia = 0 | disc_inertia | a disc or a payload
+        inertia = 0.23 | inertia = 1\npayload_mass = 2 | payload_mass | needs payload_radius
+        inertia = 0.23 | inertia = 1\ndisc_inertia = 1 | disc_inertia | cannot stand beside inertia
+        period = 0.8 |  | [workload.drive] | drive needs period
+        period = 0.8 | period = 0.8\nswing_time = 0.4 | swing_time | cannot stand beside period
+        period = 0.8 | period = inf | period | finite
+        "pi/2" | 0 | swing_angle | an angle above 0
+        shear_modulus = 8e10 | shear_modulus = 80 | shear_modulus | such as 8e10 for steel
+        missing_angle = 2 | missing_angle = 50 | missing_angle | below half the swing
+        spring_stroke = 15 | cam_efficiency = 0.5 | cam_efficiency | needs spring_stroke
+        spring_stroke = 15 | spring_stroke = 15\ncam_efficiency = 2 | cam_efficiency | up to 1
+        swings = 5 | swings = 0 | swings | 1 to 10000
+        swings = 5 | motion = "both" | motion | known: stepwise, reversing
+        swings = 5 | programme = ["3"] | programme | wait 0.3
+        swings = 5 | swings = 5\nprogramme = ["1"] | swings | cannot stand beside programme
+        swings = 5 | latch_capture = -1 | latch_capture | an angle from 0
+        swings = 5 | feed_from = 50 | feed_from | within the swing
+        swings = 5 | feed_moments = [] | feed_moments | 1 to 1000
+        swings = 5 | feed_moments = [[0, 0]] | feed_moments | above 0
+        swings = 5 | feed_moments = [[0, 1], [20, -1]] | feed_moments | 0 or a number above it
+        swings = 5 | feed_moments = [[10, 1], [10, 2]] | feed_moments | beyond that of the piece before
+        swings = 5 | feed_moments = [[46, 1]] | feed_moments | within the swing
+        swings = 5 | feed_energy = 1\nfeed_moments = [[0, 1]] | feed_energy | cannot stand beside feed_moments
+"#,
+    ) {
         let text = small_with(from, to);
         let (code, said, errors) = run_file(&text, &[]);
         assert_eq!((code, said.as_str()), (Some(2), ""), "{to}: {errors}");

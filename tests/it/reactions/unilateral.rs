@@ -1,6 +1,6 @@
 //! Clamped objects: forces that stand for them, contacts that would pull, contacts that only push.
 
-use crate::common::{Json, changed, has, json, near, out, run_on};
+use crate::common::{Json, cases, changed, has, json, near, out, run_on};
 use serde_json::Value;
 
 fn number(v: &Value) -> f64 {
@@ -299,20 +299,14 @@ fn contacts_that_push_anyway_change_nothing() {
 #[test]
 fn words_that_are_no_states_or_contacts_are_refused() {
     let content = between("[0, -9.81, 0]");
-    for (from, to, part) in [
-        (
-            "joint = \"below\"\nfriction",
-            "joint = \"side\"\nfriction",
-            "unknown joint \"side\"",
-        ),
-        ("friction = 0.2", "friction = -1", "a number from 0 to 10"),
-        ("friction = 0.2", "radius = 0", "a number above 0"),
-        (
-            "[[workload.contact]]",
-            "[[workload.force]]\nlink = \"part\"\npoint = [0, 0, 0]\nforce = [1, 0, 0]\nstate = \"closed\"\n[[workload.contact]]",
-            "unknown state \"closed\"",
-        ),
-    ] {
+    for [from, to, part] in cases::<3>(
+        r#"
+        joint = "below"\nfriction | joint = "side"\nfriction | unknown joint "side"
+        friction = 0.2 | friction = -1 | a number from 0 to 10
+        friction = 0.2 | radius = 0 | a number above 0
+        [[workload.contact]] | [[workload.force]]\nlink = "part"\npoint = [0, 0, 0]\nforce = [1, 0, 0]\nstate = "closed"\n[[workload.contact]] | unknown state "closed"
+"#,
+    ) {
         let (code, _, errors) = statics(&changed(&content, from, to), &["--state", "clamped"]);
         assert_eq!(code, Some(2), "{to}");
         assert!(errors.contains(part), "{to}: {errors}");

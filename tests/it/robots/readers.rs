@@ -1,7 +1,7 @@
 //! What robot descriptions are read: kinds of files that were refused, or read wrongly, and bad ones of their kind that still
 //! are refused with the place and the reason.
 
-use crate::common::{has, has_all, ozols, run_on};
+use crate::common::{cases, has, has_all, ozols, run_on};
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{figures, folder, none, refused};
 use ozols::file::schema::Coordinate;
@@ -109,22 +109,18 @@ fn sdf_includes_of_models() {
         world("<uri>model://arm</uri><name>left</name><pose>0 0 2 0 0 0</pose>");
     assert_eq!(code, Some(0), "{told}");
     has(&toml, "point = [1, 0, 2]\naxis = [1, 0, 0]");
-    for (include, words) in [
-        ("<uri>model://none</uri>", "cannot be read"),
-        ("<uri>model://../secret</uri>", "outside the folder"),
-        ("<uri>../secret/model.sdf</uri>", "outside the folder"),
-        (
-            "<uri>https://fuel.gazebosim.org/x</uri>",
-            "https:// is not read",
-        ),
-        ("<uri>model://self</uri>", "includes itself"),
-        ("<uri>model://two</uri>", "has not one <model>"),
-        (
-            "<uri>model://arm</uri><placement_frame>a</placement_frame>",
-            "placed by a frame\nplaces them by a frame",
-        ),
-        ("<name>x</name>", "<uri>"),
-    ] {
+    for [include, words] in cases::<2>(
+        r"
+        <uri>model://none</uri> | cannot be read
+        <uri>model://../secret</uri> | outside the folder
+        <uri>../secret/model.sdf</uri> | outside the folder
+        <uri>https://fuel.gazebosim.org/x</uri> | https:// is not read
+        <uri>model://self</uri> | includes itself
+        <uri>model://two</uri> | has not one <model>
+        <uri>model://arm</uri><placement_frame>a</placement_frame> | placed by a frame\nplaces them by a frame
+        <name>x</name> | <uri>
+",
+    ) {
         let (code, _, told) = world(include);
         let found = words.split('\n').any(|w| told.contains(w));
         let place = ["world.sdf:3:1", "model.sdf", "model://self"];

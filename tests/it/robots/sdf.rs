@@ -1,6 +1,6 @@
 //! SDF: places, axes, kinds of joints, nested and static models.
 
-use crate::common::{has, has_all};
+use crate::common::{cases, has, has_all};
 use crate::robots::mjcf::toml_of;
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};
@@ -85,31 +85,18 @@ fn sdf_kinds() {
         let e = with(kind, more).unwrap_err().to_string();
         assert!(e.contains(words), "{words}: {e}");
     }
-    for (body, words) in [
-        (
-            "<link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link>",
-            "relative to itself",
-        ),
-        ("<link name='a'/><link name='a'/>", "twice"),
-        (
-            "<link name='a'><pose>0 0 0</pose></link>",
-            "6 finite numbers",
-        ),
-        ("<link name='a'><pose relative_to='x'/></link>", "\"x\""),
-        ("<include><uri>model://x</uri></include>", "--models"),
-        (
-            "<frame name='f' attached_to='g'/><frame name='g' attached_to='f'/><link name='l'/><joint name='j' type='ball'><parent>f</parent><child>l</child></joint>",
-            "itself",
-        ),
-        (
-            "<link name='a'/><joint name='j' type='ball'><child>a</child></joint>",
-            "<parent>",
-        ),
-        (
-            "<link name='a'/><joint name='j' type='ball'><parent>a</parent><child>b</child></joint>",
-            "\"b\"",
-        ),
-    ] {
+    for [body, words] in cases::<2>(
+        r#"
+        <link name='a'><pose relative_to='b'/></link><link name='b'><pose relative_to='a'/></link> | relative to itself
+        <link name='a'/><link name='a'/> | twice
+        <link name='a'><pose>0 0 0</pose></link> | 6 finite numbers
+        <link name='a'><pose relative_to='x'/></link> | "x"
+        <include><uri>model://x</uri></include> | --models
+        <frame name='f' attached_to='g'/><frame name='g' attached_to='f'/><link name='l'/><joint name='j' type='ball'><parent>f</parent><child>l</child></joint> | itself
+        <link name='a'/><joint name='j' type='ball'><child>a</child></joint> | <parent>
+        <link name='a'/><joint name='j' type='ball'><parent>a</parent><child>b</child></joint> | "b"
+"#,
+    ) {
         let e = refused("m.sdf", &sdf(body));
         assert!(e.contains(words), "{words}: {e}");
     }

@@ -1,6 +1,6 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
-use crate::common::{Json, built_in, changed, json, out, run, text};
+use crate::common::{Json, built_in, cases, changed, json, out, run, text};
 use ozols::file::text::mechanism_from_str;
 use ozols::model::mechanism::StateId;
 use ozols::redundancy::analysis::exact_field;
@@ -62,29 +62,15 @@ fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
 
 #[test]
 fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
-    for (from, to, said) in [
-        (
-            "spherical = 2\n",
-            "sphericle = 2\n",
-            "unknown cost \"sphericle\"",
-        ),
-        (
-            "spherical = 2\n",
-            "spherical = -2\n",
-            "cost -2 must be a finite number from 0 to 1e6",
-        ),
-        ("spherical = 2\n", "spherical = nan\n", "cost NaN must be"),
-        (
-            "spherical = 2\n",
-            "spherical = \"2\"\n",
-            "each line is a name and a number",
-        ),
-        (
-            "spherical = 2\n",
-            "spherical 2\n",
-            "each line is a name and a number",
-        ),
-    ] {
+    for [from, to, said] in cases::<3>(
+        r#"
+        spherical = 2\n | sphericle = 2\n | unknown cost "sphericle"
+        spherical = 2\n | spherical = -2\n | cost -2 must be a finite number from 0 to 1e6
+        spherical = 2\n | spherical = nan\n | cost NaN must be
+        spherical = 2\n | spherical = "2"\n | each line is a name and a number
+        spherical = 2\n | spherical 2\n | each line is a name and a number
+"#,
+    ) {
         let (_folder, path) = table(from, to);
         let o = run(&["search", "gripper-10", "--costs", &path]);
         let err = text(&o.stderr);

@@ -1,7 +1,7 @@
 //! The desk: undo, conflicts, saving, and work that is left behind.
 
 use super::served::Served;
-use crate::common::{Json, has, out, text};
+use crate::common::{Json, cases, has, out, text};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
@@ -175,16 +175,15 @@ fn it_ends_with_its_last_window_and_with_ctrl_c() {
 fn what_cannot_be_opened_is_told() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("sub")).unwrap();
-    for (file, words) in [
-        ("-", "standard input is no file"),
-        ("grippper-10", "did you mean"),
-        ("sub", "is a folder"),
-        (
-            "nowhere/mine.toml",
-            "neither a file nor a built-in mechanism",
-        ),
-        ("new.json", "neither a file nor a built-in mechanism"),
-    ] {
+    for [file, words] in cases::<2>(
+        r"
+        - | standard input is no file
+        grippper-10 | did you mean
+        sub | is a folder
+        nowhere/mine.toml | neither a file nor a built-in mechanism
+        new.json | neither a file nor a built-in mechanism
+",
+    ) {
         let mut command = crate::common::ozols(&["studio", "--no-open", file]);
         let o = command.current_dir(folder.path()).output().unwrap();
         assert_eq!(o.status.code(), Some(2), "{file}");

@@ -1,7 +1,7 @@
 //! Grips that cannot be: refused, or told.
 
 use super::text;
-use crate::common::{has, ozols, written};
+use crate::common::{cases, has, ozols, written};
 use serde_json::Value;
 
 /// Writes a file, runs commands on it, and gives exit code, output and errors.
@@ -26,81 +26,23 @@ fn impossible_grips_are_refused_or_told() {
         text().replacen(from, to, 1)
     };
     // Wrong in itself: exit code 2 from all, with the line and what to give.
-    for (from, to, line, part) in [
-        (
-            "density = 7850",
-            "density = -7850",
-            "density",
-            "a number above 0",
-        ),
-        (
-            "density = 7850\npart_length = 120",
-            "mass = -1",
-            "mass = -1",
-            "a number above 0",
-        ),
-        (
-            "id = \"3\"",
-            "id = \"3\"\nmass = -2\ncentre = [0, 0, 0]",
-            "mass = -2",
-            "a number from 0",
-        ),
-        (
-            "prism_angle = 120",
-            "prism_angle = 180",
-            "prism_angle",
-            "at 180 the faces form no V",
-        ),
-        (
-            "prism_angle = 120",
-            "prism_angle = \"pi\"",
-            "prism_angle",
-            "at 180 the faces form no V",
-        ),
-        (
-            "friction = 0.2",
-            "friction = -0.2",
-            "friction",
-            "a coefficient from 0 to 10",
-        ),
-        ("friction = 0.2", "", "density", "needs friction"),
-        (
-            "diameter = 40",
-            "diameter = -40",
-            "diameter = -40",
-            "a number above 0",
-        ),
-        (
-            "lever_joints = [\"0-1\", \"0-2\"]\n",
-            "",
-            "contacts",
-            "contacts needs lever_joints",
-        ),
-        (
-            "contacts = [\"1-a far\"",
-            "contacts = [\"1-a fat\"",
-            "contacts",
-            "unknown joint \"1-a fat\"",
-        ),
-        (
-            "contacts = [\"1-a far\", \"1-a near\"",
-            "contacts = [\"2-a far\", \"1-a near\"",
-            "contacts",
-            "turns in the first of lever_joints",
-        ),
-        (
-            "friction = 0.2",
-            "friction = 0.2\nlevers = \"independent\"",
-            "contacts",
-            "one drive for both",
-        ),
-        (
-            "friction = 0.2",
-            "friction = 0.2\npivots = \"nominal\"",
-            "contacts",
-            "pivots = \"fixed\"",
-        ),
-    ] {
+    for [from, to, line, part] in cases::<4>(
+        r#"
+        density = 7850 | density = -7850 | density | a number above 0
+        density = 7850\npart_length = 120 | mass = -1 | mass = -1 | a number above 0
+        id = "3" | id = "3"\nmass = -2\ncentre = [0, 0, 0] | mass = -2 | a number from 0
+        prism_angle = 120 | prism_angle = 180 | prism_angle | at 180 the faces form no V
+        prism_angle = 120 | prism_angle = "pi" | prism_angle | at 180 the faces form no V
+        friction = 0.2 | friction = -0.2 | friction | a coefficient from 0 to 10
+        friction = 0.2 |  | density | needs friction
+        diameter = 40 | diameter = -40 | diameter = -40 | a number above 0
+        lever_joints = ["0-1", "0-2"]\n |  | contacts | contacts needs lever_joints
+        contacts = ["1-a far" | contacts = ["1-a fat" | contacts | unknown joint "1-a fat"
+        contacts = ["1-a far", "1-a near" | contacts = ["2-a far", "1-a near" | contacts | turns in the first of lever_joints
+        friction = 0.2 | friction = 0.2\nlevers = "independent" | contacts | one drive for both
+        friction = 0.2 | friction = 0.2\npivots = "nominal" | contacts | pivots = "fixed"
+"#,
+    ) {
         let text = with(from, to);
         let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
         for args in [&["grip", "FILE"][..], &STATICS, &["check", "FILE"]] {
