@@ -1,9 +1,8 @@
 //! What publications say of the mechanisms they show, against what is so.
 
-use crate::common::{Json, built_in, json, near, out, words, written};
+use crate::common::*;
 use ozols::drive::torsion::{Bar, CamSpring};
-use serde_json::{Value, json as value};
-use std::collections::BTreeSet;
+use serde_json::json as value;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 fn claims(args: &[&str]) -> (Vec<Value>, String) {

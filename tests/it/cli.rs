@@ -13,8 +13,7 @@ mod output;
 mod small;
 mod too_many;
 
-use crate::common::{count, out, run, text};
-use serde_json::Value;
+use crate::common::*;
 
 /// Options that make the gripper's space small.
 const SMALL: [&str; 4] = ["search", "gripper-10", "--options", "revolute,spherical"];

@@ -1,16 +1,27 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
 use assert_cmd::Command;
-use ozols::Mechanism;
+pub(crate) use itertools::Itertools;
+pub(crate) use num_bigint::BigUint;
+pub(crate) use ozols::builtin;
 use ozols::closure::Closure;
+pub(crate) use ozols::file::text::mechanism_from_str;
 use ozols::geom::exact::ExactField;
+pub(crate) use ozols::geom::expr::Expr;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
-use serde_json::Value;
-use std::fs;
+pub(crate) use ozols::model::joint_type::{Freedom, JointType};
+pub(crate) use ozols::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
+pub(crate) use ozols::redundancy::analysis::{Method, analyse, exact_field};
+pub(crate) use ozols::search::Search;
+pub(crate) use ozols::search::question::conditions::Conditions;
+pub(crate) use serde_json::Value;
+pub(crate) use std::collections::{BTreeMap, BTreeSet};
+pub(crate) use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+pub(crate) use std::path::Path;
+use std::path::PathBuf;
 use std::process::Output;
 use std::sync::OnceLock;
 use tempfile::TempDir;

@@ -2,11 +2,8 @@
 
 mod shares;
 
-use itertools::Itertools;
+use crate::common::*;
 use ozols::closure::contour::{closed_walk, contour_basis};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{JointId, Mechanism, StateId};
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::redundancy::figures;
 use petgraph::algo::dijkstra;
 use petgraph::graph::{NodeIndex, UnGraph};

@@ -3,12 +3,10 @@
 mod counted;
 mod exchange;
 
-use crate::common::{built_in, ozols};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
+use crate::common::*;
 use ozols::rank::method::NoAnswer;
 use ozols::rank::method::registry::by_name;
-use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
+use ozols::redundancy::analysis::StateAnalysis;
 
 const FRAME: &str = r#"
 name = "pair"

@@ -7,12 +7,11 @@
 
 pub(crate) mod figures;
 
+use crate::common::*;
 use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
 use snapbox::assert::Action;
-use std::fs;
-use std::path::Path;
 
 /// A command and the output written beneath it.
 struct Example {

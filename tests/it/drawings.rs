@@ -15,18 +15,10 @@ mod space;
 mod undriven;
 
 use self::reading::{collisions, covers, misread, outside, texts};
-use crate::common::{Json, built_in, out, ozols};
-use ozols::builtin;
+use crate::common::*;
 use ozols::draw::{Drawing, Marks, Rect, Subject, kinematic, scheme};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::Search;
-use ozols::search::question::conditions::{Conditions, InState};
-use std::collections::BTreeMap;
+use ozols::search::question::conditions::InState;
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
 
 /// Contact sheets, one a family, to look at: `contact-sheets` in the folder that cargo gives tests.
 #[derive(Default)]

@@ -1,9 +1,6 @@
 //! What `ozols analyze` says of the drives: which are locked, which work against each other, where the outputs stand still.
 
-use crate::common::{Json, json, ozols, written};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
+use crate::common::*;
 use ozols::redundancy::drives::DriveFault;
 
 /// Returns a loop of hinges about z between as many links as there are points, the first of which is the frame.

@@ -3,12 +3,8 @@
 mod check;
 mod new;
 
-use crate::common::{Json, has, has_all, out, ozols, text, written};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::JointType;
+use crate::common::*;
 use ozols::terms::Terms;
-use std::fs;
-use std::path::Path;
 use std::process::{Command, Output};
 
 const COMMANDS: [&str; 22] = [

@@ -8,13 +8,10 @@ mod holding;
 mod motion;
 mod published;
 
-use crate::common::{Json, cases, changed, has, near, run_on};
-use crate::common::{json, out};
+use crate::common::*;
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::{Lever, LeverError};
 use proptest::prelude::*;
-use serde_json::Value;
-use std::fs;
 
 /// A lever in millimetres and degrees.
 fn lever(length: f64, prism: f64, mounting: f64) -> Lever {

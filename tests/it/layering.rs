@@ -1,8 +1,7 @@
 //! Imports go downward only.
 
+use crate::common::*;
 use crate::sources::{CRATES, below, rooms, root, without_tests};
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::PathBuf;
 
 /// The layers, lowest first, each with the folder of its crate; rooms of one row do not import each other. Between crates the

@@ -1,7 +1,6 @@
 //! What the program is built from may be handed out with it, and comes from where packages are kept for good.
 
-use crate::common::Json;
-use serde_json::Value;
+use crate::common::*;
 use std::process::Command;
 
 /// Licences that ask for no more than that they are passed on.

@@ -1,7 +1,6 @@
 //! What commands say, phrase by phrase: verdicts first and digits last, directions named, remedies that work.
 
-use crate::common::{Json, changed, has, json, out, ozols, run, run_on, text};
-use std::fs;
+use crate::common::*;
 
 fn coloured(args: &[&str], variable: (&str, &str)) -> String {
     let mut command = ozols(args);

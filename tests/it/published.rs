@@ -1,8 +1,7 @@
 //! The reference figures, by the program itself.
 
-use crate::common::Json;
+use crate::common::*;
 use assert_cmd::Command;
-use serde_json::Value;
 
 fn json(args: &[&str]) -> Value {
     let out = Command::new(env!("CARGO_BIN_EXE_ozols"))

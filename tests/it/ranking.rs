@@ -6,21 +6,14 @@ mod geared;
 mod proof;
 mod reasons;
 
-use crate::common::{out, words, written};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::Mechanism;
+use crate::common::*;
 use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
-use ozols::redundancy::analysis::exact_field;
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::score::joint_types::JointTypes;
 use ozols::score::outcome::pareto::{dominates, fronts};
 use ozols::score::outcome::ranking::{RankedPool, Ranker, compare};
-use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 
 fn loaded() -> Mechanism {

@@ -1,6 +1,5 @@
 //! Joint reactions of any mechanism: equilibrium, virtual work, frames, linearity, energy, self-stresses.
 
-use crate::common::{built_in, has, written};
 mod command;
 mod couplings;
 mod cycle;
@@ -12,10 +11,8 @@ mod twists;
 mod two_drives;
 mod unilateral;
 
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::expr::Expr;
+use crate::common::*;
 use ozols::model::loads::{ExternalForce, MassProperties};
-use ozols::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use ozols::motion::pose::Pose;
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};

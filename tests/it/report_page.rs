@@ -1,9 +1,6 @@
 //! The report page: its data are those of `ozols search`, its symbols those of `ozols draw`, its bytes always the same.
 
-use crate::common::{Json, has, json, out, ozols};
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::fs;
+use crate::common::*;
 
 /// What stands between two texts.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {

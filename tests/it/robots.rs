@@ -16,11 +16,9 @@ mod sdf;
 mod taken;
 mod unread;
 
-use crate::common::{has, ozols};
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::file::write::mechanism_file;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Elimination, Method, StateAnalysis, analyse};
+use ozols::redundancy::analysis::{Elimination, StateAnalysis};
 use ozols::robots::{Imported, Options, import};
 use std::path::PathBuf;
 

@@ -1,9 +1,7 @@
 //! What the gate compiles, it compiles once: tests, the program and the Python package share their dependencies and crates, since
 //! none of them asks for features that the others do not have.
 
-use crate::common::Json;
-use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::common::*;
 use std::process::Command;
 
 /// By package and target, the features it is compiled with, as cargo plans a command without running it. The plan is one of cargo's

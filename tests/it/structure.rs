@@ -1,20 +1,15 @@
 //! What is done by the structure of J, against the same by definition: the rank from the contours one by one, and the
 //! shares of the contours from one basis of the self-stresses.
 
-use crate::common::{built_in, rank_dense};
+use crate::common::*;
 use crate::search::twin;
 use ozols::accuracy::lattice::{self, LatticeKind};
-use ozols::builtin;
 use ozols::closure::contour::Contour;
 use ozols::closure::{Closure, Column, CouplingRow};
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::exact::ExactField;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
-use ozols::model::joint_type::Freedom;
-use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::rank::exact::modular;
-use ozols::redundancy::analysis::exact_field;
 use ozols::redundancy::contour_shares::shares;
 use proptest::prelude::*;
 

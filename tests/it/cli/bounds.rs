@@ -1,9 +1,7 @@
 //! Budgets of nodes, memory and threads, and files that are too large: an honest stop or a message, never an abort.
 
 use super::refused;
-use crate::common::{Json, has, ozols, run, text};
-use num_bigint::BigUint;
-use serde_json::Value;
+use crate::common::*;
 use std::fmt::Write;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};

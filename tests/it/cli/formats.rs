@@ -1,8 +1,7 @@
 //! The contract of the formats, design.md section 4: keys, columns, counts.
 
 use super::{small, small_out};
-use crate::common::{Json, count, json, run};
-use serde_json::Value;
+use crate::common::*;
 
 // The contract of the formats, design.md section 4.
 

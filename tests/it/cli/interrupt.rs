@@ -1,9 +1,6 @@
 //! Signals: what is said, what is left, and the exit code.
 
-use crate::common::{ozols, text};
-use serde_json::Value;
-use std::fs;
-use std::path::Path;
+use crate::common::*;
 use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};

@@ -1,10 +1,9 @@
 //! Every list of fixed length in the schema of mechanism files, one shorter and one longer, in TOML and in JSON.
 
 use super::bad_files::bad_file;
+use crate::common::*;
 use ozols::file::schema::json_schema;
-use ozols::file::text::mechanism_from_str;
-use serde_json::{Value, json};
-use std::collections::BTreeSet;
+use serde_json::json;
 
 /// A step from a value to a list in it.
 #[derive(Clone)]

@@ -1,9 +1,7 @@
 //! Nothing is lost: outputs of one name, outputs that are read, disks and files that are full.
 
 use super::four_bar;
-use crate::common::{cases, has, out, ozols, run, text};
-use std::fs;
-use std::path::Path;
+use crate::common::*;
 use std::process::{Command, Output};
 
 /// Runs a command of a shell in a folder; `ozols` is the program.

@@ -2,9 +2,7 @@
 
 use super::bad_files::bad_file;
 use super::{four_bar, refused};
-use crate::common::{json, out, written};
-use serde_json::Value;
-use std::fs;
+use crate::common::*;
 
 fn four_bar_json() -> String {
     let value: Value = toml::from_str(&four_bar()).unwrap();

@@ -1,9 +1,7 @@
 //! Files written, standard input and output, closed pipes.
 
 use super::{four_bar, refused};
-use crate::common::{Json, has, json, out, ozols, run, text, timeless};
-use serde_json::Value;
-use std::fs;
+use crate::common::*;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 

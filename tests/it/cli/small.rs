@@ -1,8 +1,7 @@
 //! Names, tables, files and pipes that are not as one expects.
 
 use super::refused;
-use crate::common::{changed, has, out, ozols, run, text, written};
-use std::fs;
+use crate::common::*;
 
 /// ESC colours a terminal and worse, CR hides what came before, NUL ends strings of other programs.
 #[test]

@@ -1,10 +1,7 @@
 //! Couplings among the constraints that formulas count.
 
 use super::{SLIDE, coupled, exact, mechanism, pair};
-use crate::common::built_in;
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
+use crate::common::*;
 
 /// A coupling is a constraint: Malyshev's formula counts it, and is W less σ with couplings as without, in every state.
 #[test]

@@ -1,9 +1,7 @@
 //! Couplings in what is written and read: the page, mechanism files, robot formats, drawings.
 
 use super::{SLIDE, TURN, coupled, exact, mechanism, pair};
-use crate::common::ozols;
-use crate::common::{Json, built_in, has};
-use ozols::model::mechanism::StateId;
+use crate::common::*;
 
 #[test]
 fn the_report_has_a_row_for_each_coupling() {

@@ -1,12 +1,9 @@
 //! Figures in the README and the guide that stand in no example, against what the program finds.
 
 use crate::accuracy::SURVEY;
-use crate::common::{Json, count, json, out, run};
+use crate::common::*;
 use ozols::chains::classics::classics;
 use ozols::rank::method::registry;
-use serde_json::Value;
-use std::fs;
-use std::path::Path;
 
 /// Asserts that a document has these words, wherever its lines are broken.
 pub(crate) fn says(document: &str, words: &str) {

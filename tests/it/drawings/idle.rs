@@ -1,12 +1,8 @@
 //! Idle freedoms as motions: what rests does so, joints stay together, and one sees what turns in its place.
 
-use crate::common::{built_in, out};
-use ozols::builtin;
+use crate::common::*;
 use ozols::geom::vector::{length, real, scale, sub};
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::StateId;
 use ozols::motion::pose::Pose;
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::redundancy::idle_animation::wiggle;
 
 #[test]

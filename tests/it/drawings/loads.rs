@@ -1,10 +1,7 @@
 //! Self-stresses as arrows: what joints bear keeps every link in balance, and that is what is drawn.
 
-use crate::common::{built_in, out, ozols};
-use ozols::builtin;
+use crate::common::*;
 use ozols::geom::vector::{add, cross, dot, length, real, scale, sub};
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::redundancy::stress::SelfStress;
 
 fn stresses(name: &str) -> (Mechanism, Vec<SelfStress>) {

@@ -3,13 +3,8 @@
 
 use super::places::all;
 use super::reading::{covers, texts};
-use crate::common::{changed, out};
-use ozols::builtin;
+use crate::common::*;
 use ozols::draw::{Drawing, Rect, Subject, kinematic};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::{Mechanism, StateId};
-use std::collections::BTreeSet;
 
 type Point = [f64; 2];
 

@@ -1,11 +1,8 @@
 //! Joints whose axes meet in a point stand farther along them, each somewhere on its own axis.
 
 use super::places::{Point, Shown, axis, point};
-use crate::common::built_in;
-use ozols::builtin;
+use crate::common::*;
 use ozols::draw::{Sight, Subject, kinematic_seen};
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::{JointId, Mechanism, StateId};
 
 /// A view by what is right and up on paper.
 struct Side {

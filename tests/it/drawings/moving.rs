@@ -1,8 +1,7 @@
 //! Drawings of motion: links stay rigid, what is published of a motion is seen, and readers can have it stand still.
 
 use super::reading::covers;
-use crate::common::{out, ozols};
-use std::collections::BTreeMap;
+use crate::common::*;
 
 type Point = [f64; 2];
 

@@ -1,9 +1,8 @@
 //! Joint types by themselves: their symbols in two views, with their freedoms at the axes of their frames.
 
 use super::reading::{collisions, outside};
+use crate::common::*;
 use ozols::draw::joint_type;
-use ozols::model::joint_type::{Freedom, JointType};
-use std::collections::BTreeSet;
 
 #[test]
 fn names_are_on_nothing() {

@@ -2,12 +2,8 @@
 //! different places does not overlap.
 
 use super::reading::covers;
-use crate::common::built_in;
-use ozols::builtin;
+use crate::common::*;
 use ozols::draw::{Drawing, Sight, Subject, kinematic, kinematic_seen};
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::{JointId, Mechanism, Role, StateId};
-use std::collections::BTreeMap;
 
 pub(super) type Point = [f64; 2];
 

@@ -1,10 +1,8 @@
 //! Any linkage is drawn without collisions.
 
 use super::reading::collisions;
+use crate::common::*;
 use ozols::draw::{Subject, kinematic, scheme};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::redundancy::analysis::{Method, analyse};
 use proptest::prelude::*;
 use std::fmt::Write as _;
 

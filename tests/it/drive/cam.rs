@@ -1,12 +1,10 @@
 //! The cam of the torsional drive: its profile against the energy it must give, its electromagnets.
 
-use crate::common::{Json, changed, has, has_all, json, near, out, run_on};
+use crate::common::*;
 use ozols::drive::cam::Cam;
 use ozols::drive::swing::Feed;
 use proptest::prelude::*;
-use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
-use std::fs;
 
 fn number(v: &Value) -> f64 {
     v.real()

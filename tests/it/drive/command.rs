@@ -2,10 +2,7 @@
 
 mod moments;
 
-use crate::common::{Json, cases, changed, has, has_all, near, run_on, written};
-use crate::common::{json, out, ozols};
-use serde_json::Value;
-use std::fs;
+use crate::common::*;
 
 fn number(v: &Value) -> f64 {
     v.real()

@@ -1,8 +1,7 @@
 //! `check` says what a file describes, and what in it is likely a slip.
 
 use super::run;
-use crate::common::{has, has_all, out, written};
-use ozols::builtin;
+use crate::common::*;
 
 // check
 

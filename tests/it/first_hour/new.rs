@@ -1,12 +1,7 @@
 //! `new` and `list`: templates of every built-in mechanism.
 
 use super::run;
-use crate::common::{has, json, out};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
-use std::fs;
+use crate::common::*;
 
 // new
 

@@ -3,22 +3,17 @@
 mod ranked;
 mod refused;
 
-use crate::common::{Json, has, has_all, json, out, words};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::expr::Expr;
+use crate::common::*;
 use ozols::grip::clamping::{DiameterRow, HoldVerdict};
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;
 use ozols::model::loads::Loads;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::pose::Pose;
 
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{Geometry, cross, dot};
 use ozols::statics::reactions::{JointReaction, Reactions, Solution};
-use serde_json::Value;
 
 fn text() -> &'static str {
     builtin::text("lever-gripper").unwrap()

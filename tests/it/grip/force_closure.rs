@@ -2,11 +2,9 @@
 
 mod programme;
 
-use crate::common::{Json, built_in, has, json, near, run_on};
+use crate::common::*;
 use ozols::grip::clamped_part::{ClampedPart, PartError};
 use ozols::grip::force_closure::{ClosureShares, ForceClosure, closure, shares};
-use ozols::model::mechanism::StateId;
-use serde_json::Value;
 use std::fmt::Write;
 
 /// A contact of a part with the frame: type, point, normal, and lines of `[[workload.contact]]`.

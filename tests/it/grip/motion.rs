@@ -1,7 +1,6 @@
 //! The clamping force along a motion.
 
-use crate::common::{Json, has, json, near, ozols, text, written};
-use serde_json::Value;
+use crate::common::*;
 
 fn number(v: &Value) -> f64 {
     v.real()

@@ -1,16 +1,13 @@
 //! What singular values say of a geometry that is a little off is what exact arithmetic says of the one that is not.
 
-use crate::common::built_in;
+use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::builtin;
 use ozols::closure::Closure;
 use ozols::geom::Reals;
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::{Mechanism, Mode, StateId};
 use ozols::rank::numeric::Elimination;
 use ozols::rank::numeric::scaling::{Scaling, rank_of_values, scaled};
-use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
+use ozols::redundancy::analysis::StateAnalysis;
 
 /// The mechanism with every number off by some billionths; axes of planar models stay as they are.
 fn disturbed(m: &Mechanism) -> Mechanism {

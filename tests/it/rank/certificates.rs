@@ -1,21 +1,17 @@
 //! Certificates of rank: every built-in mechanism has one, random matrices do, and none that is false is accepted.
 
-use crate::common::built_in;
 mod command_line;
 mod corruption;
 
+use crate::common::*;
 use corruption::corruptions;
 use num_rational::BigRational;
-use ozols::builtin;
-use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
 use ozols::linalg::number_ring::{Element, NumberRing};
-use ozols::model::mechanism::StateId;
 use ozols::rank::exact::certificate::{
     Budget, Certificate, NoCertificate, certify, certify_matrix, matrix, number_field,
 };
 use ozols::rank::exact::rational;
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::verify::certificate::{CertificateFile, FORMAT};
 use ozols::verify::matrix::MatrixOverRing;
 use ozols::verify::{self, Flaw};

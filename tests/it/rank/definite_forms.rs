@@ -4,9 +4,7 @@
 //! row add up. Signed curvatures a = 1/l with Σ a = 0 leave Σ a³ x⁴/8, those with Σ a³ = 0, too, Σ a⁵ x⁶/16, and a pair of
 //! opposite ones leaves nothing: that slide is free.
 
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
+use crate::common::*;
 use proptest::prelude::*;
 
 const QUARTICS: [[i64; 4]; 3] = [[1, 3, -2, -2], [1, 5, -3, -3], [-1, -4, 6, -1]];

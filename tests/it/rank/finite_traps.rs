@@ -5,11 +5,8 @@ pub(crate) mod all;
 #[path = "traps/beyond_doubles.rs"]
 mod beyond_doubles;
 
-use crate::common::{built_in, has, run_on};
-use ozols::builtin;
+use crate::common::*;
 use ozols::closure::Closure;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
 use ozols::rank::finite::{Finite, How, finite};

@@ -1,9 +1,7 @@
 //! Groups of displacements by hand, and what does not depend on how a file is written.
 
-use crate::common::built_in;
+use crate::common::*;
 use ozols::closure::Closure;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::bonds;
 use ozols::rank::finite::displacement_group::whole_group;

@@ -1,15 +1,10 @@
 //! The rows that are enough for the rank of J: against all rows written out, by other primes, and by what is known of mechanisms.
 
-use crate::common::{Json, built_in, has, json, out, rank_dense};
+use crate::common::*;
 use crate::search::twin;
-use ozols::builtin;
 use ozols::closure::Closure;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
-use ozols::redundancy::analysis::exact_field;
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The least rows, by the first prime, have the rank of all rows by the second, and no part has more rank than rows.

@@ -1,7 +1,6 @@
 //! What outputs can do, in words, against what is published of each mechanism; and as twists, against the exact kernel of J.
 
-use crate::common::{Json, has, json, near, ozols};
-use serde_json::Value;
+use crate::common::*;
 
 fn free(args: &[&str]) -> Value {
     json(&[&["analyze", "--state", "free", "--format", "json"], args].concat())["states"][0].take()

@@ -1,14 +1,12 @@
 //! Mobility methods: the automatic choice on every built-in mechanism, turned, scaled and measured; finite mobility by proof
 //! against finite mobility by following the motion; poses against finite differences.
 
-use crate::common::{built_in, rank_dense};
 mod proven;
 
+use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::builtin;
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::{Frame, Mechanism, Mode, StateId};
+use ozols::model::mechanism::Frame;
 use ozols::motion::pose::Pose;
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
@@ -17,7 +15,6 @@ use ozols::rank::finite::{How, finite, followed};
 use ozols::rank::method::auto::decide;
 use ozols::rank::method::generic;
 use ozols::rank::method::registry;
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols_dense::Matrix;
 use proptest::prelude::*;
 

@@ -1,14 +1,8 @@
 //! Planar mode and space agree: a joint in a plane keeps what its freedoms span there, however its frame lies.
 
-use itertools::Itertools;
+use crate::common::*;
 use ozols::closure::contour::contour_basis;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::Search;
-use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 type Three = [i64; 3];
 

@@ -1,14 +1,12 @@
 //! Poses of small mechanisms, by hand: screws, couplings, paths, ways and what a plane leaves out.
 
-use crate::common::{all_to_nine_digits, to_nine_digits};
+use crate::common::*;
 use ozols::closure::Closure;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::Reals;
 use ozols::geom::exact::ExactField;
 use ozols::geom::extent::Extent;
 use ozols::geom::rigid::RigidMotion;
 use ozols::geom::vector::real;
-use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::motion::drive_range::Way;
 use ozols::motion::jaws::meet;
 use ozols::motion::pose::Pose;

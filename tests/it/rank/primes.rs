@@ -1,12 +1,8 @@
 //! Coordinates that hold large primes as factors are no zeros: a four-bar with one hinge tilted by such a number.
 
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::geom::exact::ExactField;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::certificate::certify;
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::Search;
-use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 
 /// The two smallest primes above 2^61 that are 1 modulo 4, which every search took once.

@@ -1,11 +1,8 @@
 //! Releases of what is held twice: by virtual work, and by hand.
 
-use crate::common::built_in;
-use ozols::builtin;
-use ozols::geom::expr::Expr;
+use crate::common::*;
 use ozols::geom::vector::{cross, real, unit};
-use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{Frame, Mechanism, StateId};
+use ozols::model::mechanism::Frame;
 use ozols::redundancy::figures;
 use ozols::redundancy::release::{Release, added};
 use ozols::redundancy::stressed::Stressed;

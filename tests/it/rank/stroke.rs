@@ -1,10 +1,6 @@
 //! Variants in other poses of the present motion.
 
-use crate::common::{Json, has_all, json, out, ozols, written};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
-use serde_json::Value;
+use crate::common::*;
 
 const BALANCE: [&str; 8] = [
     "search",

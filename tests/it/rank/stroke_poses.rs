@@ -1,8 +1,7 @@
 //! Poses over a stroke: against closed forms, and as the command shows them.
 
-use crate::common::{Json, built_in, has_all, json, out, ozols};
+use crate::common::*;
 use crate::statics::{file, mechanism, r};
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::follow::{Followed, Why, follow};
 use ozols::motion::pose::Pose;
 use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};

@@ -1,9 +1,7 @@
 //! The unit of length says nothing: all lengths times a power of ten, and every word of the analysis stays.
 
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::{Frame, Mechanism, StateId};
-use ozols::redundancy::analysis::{Method, analyse};
+use crate::common::*;
+use ozols::model::mechanism::Frame;
 use proptest::prelude::*;
 
 /// A length that is written with `exponent` zeros more.

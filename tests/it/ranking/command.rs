@@ -1,10 +1,7 @@
 //! Ranking from the command line and from the file.
 
 use super::{cheapest, loaded, near, search};
-use crate::common::{Json, has, json, out, ozols, written};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use crate::common::*;
 use ozols::model::ranking::ClearanceSum;
 use ozols::score::evaluation::evaluate::Evaluator;
 use ozols::search::answer::k_best::Assignment;

@@ -2,12 +2,8 @@
 //! what they score, and loads that turn a rod which spins.
 
 use super::{cheapest, near, search};
-use crate::common::built_in;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::expr::Expr;
+use crate::common::*;
 use ozols::model::loads::{ExternalForce, ExternalMoment, MassProperties};
-use ozols::model::mechanism::{Mechanism, Role};
 use ozols::model::ranking::{ClearanceSum, Term, TypeOverride};
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;

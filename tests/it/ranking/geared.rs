@@ -1,10 +1,7 @@
 //! Ranking of geared mechanisms: the fast scores, the plain ones, the floor, and the program.
 
 use super::{both_ways, cheapest, near, sampled, search};
-use crate::common::{built_in, changed, has, run_on};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
+use crate::common::*;
 use ozols::model::ranking::{ClearanceSum, Term};
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;

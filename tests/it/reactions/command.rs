@@ -1,7 +1,6 @@
 //! The command `statics` for spatial mechanisms.
 
-use crate::common::{Json, has, json, out, ozols, written};
-use ozols::builtin;
+use crate::common::*;
 
 #[test]
 fn the_command_gives_six_components_a_joint() {

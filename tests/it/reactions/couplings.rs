@@ -4,11 +4,8 @@
 mod random;
 mod twin;
 
-use crate::common::{Json, built_in, changed, has, has_all, json, near, out, run_on};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::model::loads::{ExternalForce, ExternalMoment, Loads};
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::motion::pose::Pose;
 use ozols::redundancy::stress::exact_self_stresses;
 use ozols::statics::reactions::drives::{Driven, driven};

@@ -1,10 +1,7 @@
 //! Reactions over a stroke with inertia forces: in the plane and in space, and against differences of energy.
 
-use crate::common::{Json, built_in, has, json, out, ozols, words};
-use ozols::geom::expr::Expr;
-use ozols::model::joint_type::Freedom;
+use crate::common::*;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
-use ozols::model::mechanism::{Mechanism, Mode, Role, StateId};
 use ozols::motion::pose::Pose;
 use ozols::statics::cycle::statics;
 use ozols::statics::reactions::cycle::{Cycle, cycle};

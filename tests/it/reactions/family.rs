@@ -1,12 +1,8 @@
 //! Reactions that equilibrium leaves open: self-stresses, misalignment, stiffness.
 
 use super::{SOLVED, built_in, left_over, solve};
-use crate::common::has;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::model::loads::{Misalignment, Stiffness};
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::statics::reactions::JointReaction;
 
 #[test]

@@ -1,10 +1,6 @@
 //! Drives that name their freedom: what is held is what the file says, in every state.
 
-use crate::common::{has, run_on};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::Freedom;
-use ozols::model::mechanism::{Mechanism, StateId};
+use crate::common::*;
 use ozols::motion::pose::Pose;
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::geometry::Geometry;

@@ -2,10 +2,9 @@
 //! inertia and no ω × I ω is in what is compared with.
 
 use super::{built_in, expr, vector};
-use ozols::geom::expr::Expr;
-use ozols::model::joint_type::JointType;
+use crate::common::*;
 use ozols::model::loads::{ExternalForce, Inertia, MassProperties, Stroke};
-use ozols::model::mechanism::{Joint, Link, LinkId, Mechanism, Role, StateId};
+use ozols::model::mechanism::{Joint, Link};
 use ozols::statics::cycle::statics;
 use ozols::statics::reactions::cycle::{Cycle, cycle};
 use ozols::statics::reactions::{JointReaction, Solution, Uniqueness};

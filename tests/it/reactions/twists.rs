@@ -1,8 +1,6 @@
 //! Twists of links: each is carried by all before it.
 
-use crate::common::all_to_nine_digits;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
+use crate::common::*;
 use ozols::motion::pose::Pose;
 use ozols::statics::reactions::geometry::Geometry;
 

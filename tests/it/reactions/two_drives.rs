@@ -1,7 +1,6 @@
 //! Over a stroke further drives move at the ratio of their speeds to the first drive's, slides in the file's unit.
 
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
+use crate::common::*;
 use ozols::motion::pose::Pose;
 use ozols::statics::reactions::drives::driven;
 use ozols::statics::reactions::follow::follow_to;

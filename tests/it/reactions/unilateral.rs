@@ -1,7 +1,6 @@
 //! Clamped objects: forces that stand for them, contacts that would pull, contacts that only push.
 
-use crate::common::{Json, cases, changed, has, json, near, out, run_on};
-use serde_json::Value;
+use crate::common::*;
 
 fn number(v: &Value) -> f64 {
     v.real()

@@ -7,8 +7,7 @@ mod retyped;
 mod told;
 mod wrong;
 
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
+use crate::common::*;
 use ozols::robots::{Imported, Options, import};
 
 /// What is read of bytes under a name, with no files beside.

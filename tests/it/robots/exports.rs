@@ -2,11 +2,8 @@
 
 mod physical;
 
-use crate::common::{built_in, out, ozols};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, Mode, StateId};
-use ozols::redundancy::analysis::{Elimination, Method, analyse};
+use crate::common::*;
+use ozols::redundancy::analysis::Elimination;
 use ozols::robots::formats;
 use ozols::robots::{Options, import};
 use proptest::prelude::*;

@@ -1,9 +1,7 @@
 //! `ozols fix`: the owner's own file with what it holds twice let go.
 
-use crate::common::{Json, has, ozols};
+use crate::common::*;
 use crate::robots::folder;
-use serde_json::Value;
-use std::path::Path;
 use std::process::Output;
 
 pub(crate) fn run(words: &[&str]) -> (Option<i32>, String, String) {

@@ -1,9 +1,7 @@
 //! Robots: releases as one would build them, one cylindrical joint and one ball a loop, away from what bears a wheel.
 
-use crate::common::{Json, run_on};
+use crate::common::*;
 use crate::robots::mjcf::mjcf;
-use itertools::Itertools;
-use serde_json::Value;
 
 /// The releases of the cheapest idea: joint, and whether it slides.
 fn idea(name: &str, text: &str) -> Vec<(String, bool)> {

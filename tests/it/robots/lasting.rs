@@ -1,8 +1,7 @@
 //! Robots: only what is redundant over the motion is let go; what is so at one pose passes by itself.
 
-use crate::common::{Json, has, has_all, run_on};
+use crate::common::*;
 use crate::robots::mjcf::mjcf;
-use serde_json::Value;
 
 /// A four-bar of lengths 1, 2, 1.5 and 1.5 with all pins in a line, its second joint of a kind. On a ball it has nothing
 /// redundant but there, where the force along the line is held twice; on a hinge the force across its plane besides, wherever

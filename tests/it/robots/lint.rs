@@ -1,10 +1,9 @@
 //! `ozols lint`: what a description holds twice, by line, where on its motion, and how sure that is.
 
-use crate::common::{Json, has, run_on, text};
+use crate::common::*;
 use crate::robots::fix::{gripper, run};
 use crate::robots::mjcf::mjcf;
 use crate::robots::{folder, legs};
-use serde_json::Value;
 
 // Each connect of the gripper closes a planar loop of three hinges: its row across the plane is held twice.
 #[test]

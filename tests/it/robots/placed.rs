@@ -1,10 +1,9 @@
 //! Where things are: frames within frames, squared axes, quaternions, and places that come back from each format.
 
-use crate::common::built_in;
+use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::none;
 use ozols::geom::vector::{Vector, length, real, sub};
-use ozols::model::mechanism::Mechanism;
 use ozols::robots::formats;
 use ozols::robots::{Imported, Options, import};
 

@@ -1,9 +1,8 @@
 //! Robots: what other readers take is taken, and what is left out or not as drawn is said, by `lint` too.
 
-use crate::common::{has, has_all, run_on};
+use crate::common::*;
 use crate::robots::fix::run;
 use crate::robots::mjcf::mjcf;
-use serde_json::Value;
 
 /// W, σ and the notes of `lint` on a text.
 fn linted(name: &str, text: &str, more: &[&str]) -> (u64, u64, String) {

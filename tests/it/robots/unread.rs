@@ -1,10 +1,9 @@
 //! Loops and couplings that stand where a reader does not look first: they are read, or they are reported and counted.
 
-use crate::common::{fresh, has, run_on};
+use crate::common::*;
 use crate::robots::fix::run;
 use crate::robots::mjcf::mjcf;
 use ozols::robots::{Options, import};
-use serde_json::Value;
 use std::io::{Error, Result};
 
 /// The exit code of `lint`, what it found in a file, and its text.

@@ -2,16 +2,11 @@
 //! are.
 
 use super::families::scissor_lift;
-use crate::common::{Json, has, has_all, ozols, text};
-use ozols::file::text::mechanism_from_str;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
+use crate::common::*;
 use ozols::search::answer::estimate::Drawn;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::build::Diagrams;
-use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
-use serde_json::Value;
 use std::fmt::Write;
 
 /// A ladder of contours: a four-bar, and three joints more for each further one, hinges along z in a plane at places drawn

@@ -1,13 +1,9 @@
 //! Mechanisms of blocks that meet in a link at most: what is said of them is what brute force says, counts multiply, and
 //! nodes add up.
 
-use num_bigint::BigUint;
-use ozols::file::text::mechanism_from_str;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
+use crate::common::*;
 use ozols::search::build::Diagrams;
 use ozols::search::check::brute::every_variant;
-use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
 use std::fmt::Write;
 

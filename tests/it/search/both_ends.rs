@@ -1,15 +1,11 @@
 //! Diagrams built from both ends, where one end does not fit the budget: the same counts and the same best as from one end.
 
+use crate::common::*;
 use crate::search::beyond_budget::{ladder, search};
 use crate::search::twin::look;
-use num_bigint::BigUint;
-use ozols::file::text::mechanism_from_str;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::build::Diagrams;
 use ozols::search::diagram::{Diagram, Stop};
 use ozols::search::question::Question;
-use ozols::search::question::conditions::Conditions;
 use ozols::search::testing::from_both_ends;
 use proptest::prelude::*;
 use std::fmt::Write;

@@ -1,16 +1,11 @@
 //! The checks of the search: a second prime, and singular values.
 
-use crate::common::{Json, built_in, has, has_all, json, out, ozols, written};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
+use crate::common::*;
 use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::check::second_prime::{Verdict, build_both, compare, compare_counts, primes};
 use ozols::search::check::singular_values;
 use ozols::search::question::Question;
-use ozols::search::question::conditions::{Conditions, InState};
-use serde_json::Value;
+use ozols::search::question::conditions::InState;
 
 /// The four-bar with one axis tilted out of parallel by a number that a prime near 2^61 divides.
 fn tilted() -> String {

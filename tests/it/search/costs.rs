@@ -1,12 +1,7 @@
 //! Costs in a file of their own: printed, changed, taken, and refused where they are none.
 
-use crate::common::{Json, built_in, cases, changed, json, out, run, text};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
-use ozols::search::question::conditions::{Conditions, InState};
-use std::fs;
+use crate::common::*;
+use ozols::search::question::conditions::InState;
 
 /// A folder with the table of costs, changed, and the path to it.
 fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {

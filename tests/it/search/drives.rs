@@ -2,13 +2,9 @@
 //!
 //! The counts of built-in mechanisms are those of a trial that looked at every variant over another prime field, with code of its own.
 
-use crate::common::written;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{JointId, Mechanism};
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
+use crate::common::*;
 use ozols::search::check::brute::every_variant;
-use ozols::search::question::conditions::{Conditions, SearchError};
+use ozols::search::question::conditions::SearchError;
 use ozols::search::question::kept::Drives;
 
 /// Returns a search of a mechanism, ready to be made.

@@ -3,9 +3,7 @@
 mod mirrored;
 mod relieved;
 
-use crate::common::{Json, changed, count, has, json, out, run, words};
-use ozols::builtin;
-use serde_json::Value;
+use crate::common::*;
 use std::path::PathBuf;
 use tempfile::TempDir;
 

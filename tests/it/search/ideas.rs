@@ -6,16 +6,12 @@ mod textbook;
 mod toggle;
 mod why;
 
-use crate::common::{Json, built_in, count, has, json, out, run, text};
-use itertools::Itertools;
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::geom::vector::{cross, real, unit};
-use ozols::model::joint_type::Freedom;
-use ozols::model::mechanism::{JointId, JointOption, Mechanism, Role, StateId};
+use ozols::model::mechanism::JointOption;
 use ozols::search::answer::ideas::Idea;
 use ozols::search::answer::k_best::Assignment;
 use ozols::{Outcome, Request, search};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Every simple cycle of the mechanism's graph, as the set of its joints.
 fn cycles(m: &Mechanism) -> BTreeSet<BTreeSet<JointId>> {

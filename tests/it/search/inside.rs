@@ -1,10 +1,8 @@
 //! Ways of the engine that must give the same, looked at from the inside.
 
-use crate::common::built_in;
-use ozols::redundancy::analysis::exact_field;
+use crate::common::*;
 use ozols::search::build::{Diagrams, build};
 use ozols::search::question::Question;
-use ozols::search::question::conditions::Conditions;
 use ozols::search::testing::{Walked, cheapest_in_room, walked_for_ideas, walked_for_variants};
 
 /// Where there is room for few steps, they are forgotten again and again, and the list is the same.

@@ -1,9 +1,7 @@
 //! Whether one mechanism has the variants of another, followed from both ends, against both diagrams variant by variant.
 
-use crate::common::fresh;
+use crate::common::*;
 use crate::search::beyond_budget::{ladder, search};
-use itertools::Itertools;
-use ozols::search::question::conditions::Conditions;
 use std::fmt::Write;
 
 /// A mechanism's hinges at whole places from 0 to below a limit: some of them on one line, some at one place.

@@ -1,21 +1,13 @@
 //! Diagrams without the rows that no choice changes, against those with all rows, brute force and the slow twin.
 
-use crate::common::built_in;
+use crate::common::*;
 use crate::search::twin::{look, variants};
 use crate::search::varied::links_of;
-use num_bigint::BigUint;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::build::Diagrams;
 use ozols::search::check::brute::every_variant;
 use ozols::search::diagram::Stop;
-use ozols::search::question::conditions::Conditions;
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 fn search(m: &Mechanism, conditions: Conditions) -> Option<(Search, Diagrams)> {
     let search = Search::new(exact_field(m, 0).ok()?, m, conditions).ok()?;

@@ -1,15 +1,11 @@
 //! Lists of searches that end early or do not count: what is proven of them, and how long they are.
 
 use super::beyond_budget::ladder;
-use crate::common::{Json, built_in, json};
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::Request;
-use ozols::file::text::mechanism_from_str;
 use ozols::score::request::{Check, List};
 use ozols::search::answer::counts::Counts;
 use ozols::search::question::conditions::Symmetry;
-use serde_json::Value;
-use std::collections::BTreeMap;
 
 /// A variant is proven to be among the cheapest where its cost is one up to which all are known, and that is so of the last such cost.
 #[test]

@@ -1,12 +1,9 @@
 //! Where a count of freedoms in a plane leaves too few, nothing is built, and what easing would leave is not sought for long.
 
+use crate::common::*;
 use num_traits::Zero;
-use ozols::file::text::mechanism_from_str;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::answer::why_none::{Relaxation, hopeless, relaxations};
 use ozols::search::diagram::Stop;
-use ozols::search::question::conditions::Conditions;
 use std::fmt::Write;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

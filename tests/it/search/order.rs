@@ -1,12 +1,8 @@
 //! What a search costs does not depend on how the file lists its links and joints.
 
+use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
-use ozols::search::question::conditions::Conditions;
 use toml_edit::{DocumentMut, Table};
 
 /// The same mechanism with its tables of links and of joints in another order.

@@ -1,11 +1,8 @@
 //! Single changes, against building each and analysing it.
 
-use crate::common::{Json, has, has_all, json, out, ozols, written};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::{JointId, JointOption, Link, LinkId, Mechanism, Role, StateId};
-use ozols::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::common::*;
+use ozols::model::mechanism::{JointOption, Link};
+use ozols::redundancy::analysis::StateAnalysis;
 use ozols::search::answer::single_changes::{USUAL, USUAL_UNLOADING, single_changes};
 use ozols::view::analysis::Analysis;
 use ozols::view::analysis::suggestions::{Advice, concerned};

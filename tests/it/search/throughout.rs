@@ -2,19 +2,14 @@
 //!
 //! The poses share nothing with the power series: they are reached by Newton's method in doubles, and ranks there are singular values.
 
-use crate::common::{Json, json, ozols};
+use crate::common::*;
 use crate::search::varied::random;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::check::brute::every_variant;
 use ozols::search::check::other_poses::stroke;
 use ozols::search::check::singular_values::certify;
-use ozols::search::question::conditions::{Conditions, Symmetry};
+use ozols::search::question::conditions::Symmetry;
 use ozols::search::question::throughout::PoseOnly;
 use proptest::prelude::*;
-use std::collections::BTreeSet;
 
 /// Returns a search over the prime that is the `nth`, which is asked what lasts.
 fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {

@@ -9,16 +9,13 @@ use self::figures::figures;
 pub(crate) use self::random::random;
 use self::random::random_coupled;
 use self::rational::{Q, allowed_twists, length, twists};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::{CoupledFreedom, Freedom, JointType};
-use ozols::model::mechanism::{Frame, JointId, LinkId, Mechanism, Mode, Role, StateId};
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
+use crate::common::*;
+use ozols::model::joint_type::CoupledFreedom;
+use ozols::model::mechanism::Frame;
 use ozols::redundancy::stress::{SelfStress, StressVerdict};
-use ozols::search::Search;
 use ozols::search::check::brute::every_variant;
-use ozols::search::question::conditions::{Conditions, InState, Symmetry};
+use ozols::search::question::conditions::{InState, Symmetry};
 use proptest::prelude::*;
-use std::collections::BTreeMap;
 
 /// What the contacts of the clamped state transmit.
 #[derive(Clone, Copy, PartialEq)]

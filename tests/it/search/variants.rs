@@ -1,7 +1,6 @@
 //! Variants of a search's list as mechanisms of their own, and what to do where there are none.
 
-use crate::common::{Json, changed, count, has, json, out, ozols, run_on};
-use serde_json::Value;
+use crate::common::*;
 
 /// Flags of a question and places in its list.
 const LISTS: [(&str, &[&str], &[usize]); 7] = [

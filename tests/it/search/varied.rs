@@ -1,21 +1,16 @@
 //! Random mechanisms of more kinds than `twin` draws, against its oracle: planar mode, held links, helical and custom
 //! joints, mirror images, limits on W and on changes; and the two checks of the search on all of them.
 
+use crate::common::*;
 use crate::search::twin::{Twin, look, variants};
-use num_bigint::BigUint;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::orbit_counts;
 use ozols::search::answer::search_counts::SearchCounts;
 use ozols::search::check::brute::every_variant;
 use ozols::search::check::second_prime::{Verdict, build_both, compare};
 use ozols::search::check::singular_values;
-use ozols::search::question::conditions::{Conditions, Symmetry};
+use ozols::search::question::conditions::Symmetry;
 use proptest::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Joint types with the options that contain them.
 const KINDS: [(&str, &str); 9] = [

@@ -1,11 +1,10 @@
 //! Whatever is sent: it is refused without a trace, or can be undone to the byte, and the next request is answered.
 
 use super::served::Served;
-use crate::common::out;
+use crate::common::*;
 use proptest::prelude::*;
 use proptest::sample::select;
-use serde_json::{Value, json};
-use std::fs;
+use serde_json::json;
 
 /// Values that fit a key of a file now and then, and mostly do not.
 fn value() -> impl Strategy<Value = Value> {

@@ -1,10 +1,8 @@
 //! The desk: undo, conflicts, saving, and work that is left behind.
 
 use super::served::Served;
-use crate::common::{Json, cases, has, out, text};
-use serde_json::{Value, json};
-use std::fs;
-use std::path::Path;
+use crate::common::*;
+use serde_json::json;
 
 fn spherical(joint: &str) -> Value {
     json!({ "edits": [{ "do": "set", "what": "joint", "id": joint, "key": "type", "value": "spherical" }], "revision": null })

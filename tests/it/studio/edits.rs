@@ -1,14 +1,11 @@
 //! Changes to a file keep all that they do not change: comments, digits, blanks.
 
-use crate::common::Json;
+use crate::common::*;
 use crate::fuzz::runs;
-use ozols::builtin;
 use ozols::file::edit::{Edit, Thing, edited};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, Role};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use serde_json::{Value, json};
+use serde_json::json;
 
 fn set(what: Thing, id: &str, key: &str, value: Value) -> Edit {
     let (id, key) = (id.to_owned(), key.to_owned());

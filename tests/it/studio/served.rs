@@ -1,9 +1,8 @@
 //! The program, served, and a plain client of it.
 
-use serde_json::Value;
+use crate::common::*;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 

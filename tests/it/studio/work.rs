@@ -1,9 +1,8 @@
 //! The work at a text: the values are those of the command line, and no two searches are at work.
 
 use super::served::Served;
-use crate::common::{Json, has, json, out};
-use serde_json::{Value, json};
-use std::fs;
+use crate::common::*;
+use serde_json::json;
 
 #[test]
 fn the_verdict_and_the_ideas_are_those_of_the_command_line() {

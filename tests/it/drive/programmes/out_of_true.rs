@@ -2,12 +2,11 @@
 
 use super::drive;
 use super::repeated::latched;
-use crate::common::{Json, has, json, near, out, ozols, run_on, text};
+use crate::common::*;
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::shares;
 use ozols::drive::swing::Feed;
 use ozols::model::drive::ProgrammeStep;
-use serde_json::Value;
 
 fn steps(discs: &[usize]) -> Vec<ProgrammeStep> {
     discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect()

@@ -2,15 +2,10 @@
 
 use super::mechanism_files::told;
 use super::slow_search::{Choice, Figures, look as look_at, size, variants};
+use crate::common::*;
 use ozols::Mechanism;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse, exact_field};
-use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::check::brute::every_variant;
-use ozols::search::question::conditions::Conditions;
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Variants looked at, at most.

@@ -1,13 +1,11 @@
 //! Mechanism files in TOML and JSON, and the workloads in them.
 
-use ozols::builtin;
+use crate::common::*;
 use ozols::file::lint::check;
 use ozols::file::problem::ImportError;
 use ozols::file::read::workload::{drive_from_bytes, grip_from_bytes, tables_alone};
 use ozols::file::text::mechanism_from_bytes;
 use ozols::file::write::mechanism_file;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
 
 pub(crate) const WORDS: [&str; 20] = [
     "1e308",

@@ -1,8 +1,7 @@
 //! Robot descriptions (URDF, MJCF, SDF), the loops beside them, and CAD assemblies.
 
 use super::mechanism_files::told;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::JointId;
+use crate::common::*;
 use ozols::redundancy::release::Release;
 use ozols::robots::{Imported, Options, fix, import};
 use std::io::{Cursor, Write};

@@ -1,13 +1,11 @@
 //! From a mechanism file to its redesigns in every form in which they are written, and back from there.
 
 use super::mechanism_files::told;
-use crate::common::Json;
+use crate::common::*;
 use ozols::Scheme;
-use ozols::file::text::{mechanism_from_bytes, mechanism_from_str};
+use ozols::file::text::mechanism_from_bytes;
 use ozols::file::write::mechanism_file;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::exact::certificate::{certify, matrix, number_field};
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols::score::request::{Check, List};
 use ozols::score::run::run;
 use ozols::search::question::conditions::Symmetry;
@@ -15,7 +13,6 @@ use ozols::verify;
 use ozols::verify::certificate::{CertificateFile, FORMAT};
 use ozols::view::search::{csv, json, text};
 use ozols::{Outcome, Request};
-use serde_json::Value;
 use std::time::{Duration, Instant};
 
 /// So long a search may take; then it is ended, as by somebody who waits for it.

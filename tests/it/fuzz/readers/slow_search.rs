@@ -1,10 +1,8 @@
 //! Every variant of a small mechanism looked at by itself, from the definitions and modulo a prime of its own: what a search
 //! must agree with. It shares no code with the searches of the program, nor with their twin in rational numbers.
 
-use ozols::geom::expr::Expr;
-use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{Frame, JointId, JointOption, LinkId, Mechanism, Mode, Role};
-use std::collections::BTreeSet;
+use crate::common::*;
+use ozols::model::mechanism::{Frame, JointOption};
 
 /// Not one of the program's.
 const PRIME: u64 = (1 << 61) - 1;

@@ -1,13 +1,12 @@
 //! Small files beside mechanisms, and words: costs, changes, motions, specifications, tables, chains.
 
 use super::mechanism_files::told;
-use ozols::builtin;
+use crate::common::*;
 use ozols::catalog::spec::{Spec, range};
 use ozols::chains::graph6;
 use ozols::file::costs::costs_from_str;
 use ozols::file::edit::{Edit, edited};
 use ozols::file::read::workload::trajectory::trajectory;
-use ozols::file::text::mechanism_from_str;
 use ozols::shard::Shard;
 use std::sync::LazyLock;
 

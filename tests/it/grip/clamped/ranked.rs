@@ -2,17 +2,11 @@
 
 use super::refused::run;
 use super::{built_in, text};
-use crate::common::{Json, has, json, out};
-use ozols::builtin;
-use ozols::model::mechanism::StateId;
+use crate::common::*;
 use ozols::model::ranking::{ClearanceSum, Term};
-use ozols::redundancy::analysis::exact_field;
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
-use ozols::search::Search;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::question::conditions::Conditions;
-use serde_json::Value;
 
 fn pool(s: &Search, n: usize) -> Vec<Assignment> {
     let d = s.build(&|| false, &mut |_| {});

@@ -1,8 +1,7 @@
 //! Grips that cannot be: refused, or told.
 
 use super::text;
-use crate::common::{cases, has, ozols, written};
-use serde_json::Value;
+use crate::common::*;
 
 /// Writes a file, runs commands on it, and gives exit code, output and errors.
 pub(super) fn run(text: &str, args: &[&str]) -> (Option<i32>, String, String) {

@@ -1,14 +1,11 @@
 //! Motions that are proven: which, by what, and that following them never says otherwise.
 
 use super::built_in;
+use crate::common::*;
 use crate::rank::finite_traps::{all::all as traps, judged, judged_in};
 use crate::rank::rounded::cases::cases;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use itertools::Itertools;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mode, StateId};
 use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::displacement_group::{GroupKind, whole_group};
 use ozols::rank::finite::independent_parts::lock_idle;

@@ -1,9 +1,7 @@
 //! Mechanisms of known mobility: those built in, and those of `tests/data/mobility.jsonl`.
 
-use crate::common::data;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Expected, Mechanism, StateId};
+use crate::common::*;
+use ozols::model::mechanism::Expected;
 
 /// A state of a mechanism with its figures.
 pub(crate) struct Case {

@@ -1,13 +1,10 @@
 //! Each number of a file is known to half a unit of its last digit, as it is written there.
 
-use crate::common::{has, run_on};
+use crate::common::*;
 use crate::robots::none;
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::Mechanism;
 use ozols::model::rounded::{Uncertainties, looks_rounded, uncertainties};
 use ozols::robots::{Options, import};
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// A door on two hinges, with these two points and axes.
 pub(crate) fn door(points: [&str; 2], axes: [&str; 2], more: &str) -> String {

@@ -4,11 +4,9 @@
 //! family and number of decimals, of seeds drawn afresh, and prints a table.
 
 use super::search_numeric::request;
-use crate::common::fresh;
+use crate::common::*;
 use ozols::accuracy::change::Noise;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::rigid::RigidMotion;
-use ozols::model::mechanism::StateId;
 use ozols::rank::method::auto::decide;
 use rayon::prelude::*;
 use std::fmt::Write as _;

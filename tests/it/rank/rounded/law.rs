@@ -5,16 +5,14 @@
 //! seeds drawn afresh, and prints a table.
 
 use super::search_numeric::{plain, request, turned};
+use crate::common::*;
 use ozols::accuracy::change::Noise;
 use ozols::accuracy::said;
 use ozols::accuracy::special::SpecialKind;
-use ozols::builtin;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::rank::method::auto::decide;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::Request;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
 /// Digits after the point.
 const DECIMALS: [usize; 6] = [4, 5, 6, 9, 12, 15];

@@ -1,8 +1,7 @@
 //! What is nearly special in small mechanisms, against what is exact by hand: directions, places and reach.
 
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::geom::vector::{Vector, dot, unit};
-use ozols::model::mechanism::Mechanism;
 use ozols::rank::rounded::nearly_special::nearly_special;
 use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
 use ozols::rank::rounded::size;

@@ -1,14 +1,11 @@
 //! One verdict, whichever command is asked.
 
-use crate::common::{Json, has, has_all, out, run, run_on, text};
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::model::rounded::{looks_rounded, uncertainties};
 use ozols::rank::method::registry;
 use ozols::rank::rounded::nearly_special::nearly_special;
 use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
 use ozols::rank::rounded::size;
-use ozols::redundancy::analysis::Method;
-use serde_json::Value;
 
 /// The built-in four-bar tilted by 30 degrees about x, to so many decimals, its axes within the last of them.
 fn tilted(decimals: usize) -> String {

@@ -1,19 +1,17 @@
 //! Searches of mechanisms that exact arithmetic does not have as they are meant: by singular values, and said so.
 
-use crate::common::{Json, built_in, has, run_on};
+use crate::common::*;
 use ozols::accuracy::change::{Noise, turned_and_rounded};
-use ozols::builtin;
-use ozols::model::mechanism::{JointOption, Mechanism};
+use ozols::model::mechanism::JointOption;
 use ozols::rank::exact::field::exact_field;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{Check, JointOptions, List, Request};
-use ozols::search::Search;
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::numeric::at_tolerance::WHOLE;
 use ozols::search::question::rounded_rank::Digits;
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Options that every joint may take.
 pub(super) fn request() -> Request {

@@ -1,10 +1,9 @@
 //! Counts on rounded coordinates, and what singular values of the file say of them: no false count is called exact.
 
 use super::search_numeric::{plain, request, turned};
-use crate::common::{Json, has_all, run_on};
+use crate::common::*;
 use ozols::accuracy::change::Noise;
 use ozols::score::request::Request;
-use serde_json::Value;
 
 /// A turned gripper as it is written: planes and parallels are gone with the last digit.
 #[test]

@@ -2,15 +2,12 @@
 
 use super::digits::door;
 use super::search_numeric::{bare, request, turned};
+use crate::common::*;
 use ozols::accuracy::change::Noise;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::model::rounded::uncertainties;
 use ozols::rank::method::auto::decide;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{List, Request};
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 fn read(text: &str) -> Mechanism {

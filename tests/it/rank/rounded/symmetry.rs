@@ -2,11 +2,8 @@
 //! of images, are counted as in the exact file.
 
 use super::search_numeric::{bare, request, turned};
-use crate::common::{built_in, has};
+use crate::common::*;
 use ozols::accuracy::change::Noise;
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::Mechanism;
 use ozols::score::request::Request;
 use ozols::search::question::conditions::Symmetry;
 

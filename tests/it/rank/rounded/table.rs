@@ -1,13 +1,12 @@
 //! Every mechanism of known mobility, turned three times at random and rounded to 4 to 16 decimals.
 
 use super::cases::{Case, cases};
+use crate::common::*;
 use crate::documents::figures::{between, says};
 use ozols::accuracy::change::{Noise, turned_and_rounded};
-use ozols::model::mechanism::Mechanism;
 use ozols::rank::method::auto::decide;
 use ozols::rank::rounded::verdict::verdict;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 
 /// What an answer is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,15 +1,12 @@
 //! What a unit of the last digit can do, by hand; and what is told of a scene that is meant.
 
 use super::search_numeric::{plain, turned};
-use crate::common::near;
+use crate::common::*;
 use ozols::accuracy::change::Noise;
 use ozols::closure::Closure;
 use ozols::geom::Reals;
-use ozols::geom::expr::Expr;
 use ozols::geom::vector::real;
 use ozols::meant::mechanism::{Meant, meant};
-use ozols::model::joint_type::JointType;
-use ozols::model::mechanism::{JointId, Mechanism, StateId};
 use ozols::model::rounded::uncertainties;
 use ozols::rank::numeric::scaling::{Scaling, scaled};
 use ozols::rank::rounded::intended::settle;
@@ -17,7 +14,6 @@ use ozols::rank::rounded::moves::{moved_joints, understood};
 use ozols::rank::rounded::nearly_special::reach;
 use ozols::rank::rounded::size;
 use ozols::rank::rounded::verdict::verdict;
-use ozols::redundancy::analysis::{Method, analyse};
 use ozols_dense::singular_values;
 
 fn measured(name: &str, decimals: usize) -> Mechanism {

@@ -1,8 +1,7 @@
 //! Equilibrium written out in full, as a twin: six unknowns a joint and one a coupling, six equations a link and one a freedom,
 //! solved by complete elimination. It reads points, axes, links and ratios of the model and shares no other code with it.
 
-use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use crate::common::*;
 use ozols::statics::reactions::Solution;
 
 type V = [f64; 3];

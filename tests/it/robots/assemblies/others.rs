@@ -2,10 +2,8 @@
 //! and how many parts and constraints there are.
 
 use super::{figures, read};
-use crate::common::{Json, assemblies_of_others};
+use crate::common::*;
 use ozols::robots::Options;
-use serde_json::Value;
-use std::path::Path;
 
 /// The files and what is to be found of each; nothing where the files are not there.
 fn expected() -> Vec<(String, Vec<u8>, Value)> {

@@ -1,7 +1,6 @@
 //! Masses and inertias as each format has them.
 
-use crate::common::built_in;
-use ozols::file::text::mechanism_from_str;
+use crate::common::*;
 use ozols::robots::formats;
 
 /// Of six numbers of inertia the last three differ in order from format to format: xy, yz, zx here; xy, xz, yz in URDF, SDF and

@@ -1,12 +1,8 @@
 //! Mirror pairs that are none.
 
 use super::{file, searched};
-use crate::common::{changed, count, has, run};
-use ozols::builtin;
-use ozols::file::text::mechanism_from_str;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
-use ozols::search::question::conditions::{Conditions, Symmetry};
+use crate::common::*;
+use ozols::search::question::conditions::Symmetry;
 
 fn gripper() -> String {
     builtin::text("gripper-10").unwrap().to_owned()

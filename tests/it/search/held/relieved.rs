@@ -1,11 +1,7 @@
 //! Unloading joints anywhere, σ by contour, joints of the free state alone, and what to do where nothing is found.
 
 use super::{file, pads, searched};
-use crate::common::{Json, built_in, changed, count, has, out, run, words};
-use ozols::file::text::mechanism_from_str;
-use ozols::geom::expr::Expr;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Method, analyse};
+use crate::common::*;
 use ozols::search::check::variant_mechanism::realize;
 
 fn refused(args: &[&str]) -> String {

@@ -1,15 +1,11 @@
 //! How many variants are minimal, against every pair of variants looked at in rational arithmetic.
 
-use crate::common::{built_in, count, has, json, out};
+use crate::common::*;
 use crate::fuzz::runs;
 use crate::search::twin::less::does_with_less;
 use crate::search::twin::{look, random, suits, variants};
-use num_bigint::BigUint;
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{JointOption, Mechanism, StateId};
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
-use ozols::search::question::conditions::{Conditions, InState};
+use ozols::model::mechanism::JointOption;
+use ozols::search::question::conditions::InState;
 use proptest::prelude::*;
 
 /// What the search counts, and what a look at each pair does.

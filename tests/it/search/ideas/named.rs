@@ -1,7 +1,6 @@
 //! An idea and a variant of the same number are two mechanisms, and each says which it is.
 
-use crate::common::{built_in, has, out, run, text};
-use ozols::model::mechanism::Mechanism;
+use crate::common::*;
 use ozols::score::request::{Inserts, Request};
 use ozols::search::answer::ideas::Idea;
 

@@ -11,10 +11,7 @@
 //! 1999: a hinge line on a ball and a ball in a bore. [Phillips]: J. Phillips, Freedom in Machinery, 1984: the sliding shaft of a
 //! double Hooke joint.
 
-use crate::common::{Json, json};
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::fs;
+use crate::common::*;
 
 /// A joint: its name, its links, `r` for a hinge across the plane or `p` for a slide along x, and where it is.
 type Joint = (&'static str, [&'static str; 2], char, [i32; 2]);

@@ -1,9 +1,8 @@
 //! What an idea says of itself: what it lets go, of which parts, what it removes, what stays, and what joints bear.
 
-use crate::common::{Json, has, json, near, out};
+use crate::common::*;
 use crate::search::ideas::toggle::gripper;
-use serde_json::{Value, json as value};
-use std::fs;
+use serde_json::json as value;
 
 fn why(args: &[&str], idea: usize) -> Value {
     let more = ["--distinct", "--format", "json"];

@@ -1,8 +1,7 @@
 //! Small random mechanisms, with and without couplings.
 
 use super::rational::{Q, axes, dot};
-use ozols::file::text::mechanism_from_str;
-use ozols::model::joint_type::{Freedom, JointType};
+use crate::common::*;
 use proptest::prelude::*;
 
 const TYPES: [&str; 6] = [
