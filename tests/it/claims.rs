@@ -205,10 +205,7 @@ fn rods_and_rockers_are_told_apart() {
     let swapped = claim(&claims, "rods 3 and 7 to rockers");
     assert_eq!(swapped["holds"], false);
     assert_eq!(swapped["right"], "rods 2 and 6, rockers 3 and 7");
-    assert!(
-        text.contains("right: rods 2 and 6, rockers 3 and 7"),
-        "{text}"
-    );
+    has(&text, "right: rods 2 and 6, rockers 3 and 7");
     let m = built_in("gripper-10");
     for (link, on_frame) in [("2", false), ("6", false), ("3", true), ("7", true)] {
         let l = m.links.iter().position(|x| x.id == link).unwrap();
@@ -241,7 +238,7 @@ fn the_plane_of_the_constraints_left_is_that_of_their_forces() {
             left.insert(axis.word().to_owned());
         }
     }
-    assert_eq!(left.into_iter().collect::<Vec<_>>(), ["x", "z"]);
+    assert_eq!(left.into_iter().collect_vec(), ["x", "z"]);
 }
 
 /// `[Klyuchkovskyi 1999]`: the formulas that hold, and (7) and (13) as they are printed.

@@ -24,7 +24,7 @@ fn small(more: &[&str]) -> Vec<String> {
 
 fn small_out(more: &[&str]) -> String {
     let args = small(more);
-    out(&args.iter().map(String::as_str).collect::<Vec<_>>())
+    out(&args.iter().map(String::as_str).collect_vec())
 }
 
 /// Asserts that a run is refused with exit code 2, nothing on standard output, and these words.

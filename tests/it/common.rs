@@ -202,6 +202,13 @@ pub(crate) fn assemblies_of_others() -> Option<&'static Path> {
     FOLDER.get_or_init(find).as_deref()
 }
 
+/// Returns what is usual but for a change.
+pub(crate) fn but<T: Default>(change: impl FnOnce(&mut T)) -> T {
+    let mut out = T::default();
+    change(&mut out);
+    out
+}
+
 /// A built-in mechanism.
 pub(crate) fn built_in(name: &str) -> Mechanism {
     ozols::built_in(name).unwrap()

@@ -367,10 +367,7 @@ fn couplings_have_mirror_images() {
     let with = |ratio: &str| {
         mechanism(&text.replacen("[search]", &(coupled("a", "b", ratio) + "[search]"), 1))
     };
-    let request = || Conditions {
-        symmetry: Symmetry::OnePerOrbit,
-        ..Conditions::default()
-    };
+    let request = || but(|c: &mut Conditions| c.symmetry = Symmetry::OnePerOrbit);
     let made = |m: &Mechanism| {
         Search::new(exact_field(m, 0).unwrap(), m, request())
             .map(|_| ())

@@ -369,7 +369,7 @@ fn command_line() {
             "no variant",
         ),
     ] {
-        let done = ozols(&args).output().unwrap();
+        let done = run(&args);
         assert_eq!(done.status.code(), Some(2), "{args:?}");
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert!(said.contains(what), "{said}");

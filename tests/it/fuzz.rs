@@ -17,6 +17,7 @@ mod mechanism_files;
 pub(crate) mod readers;
 mod robot_files;
 
+use crate::common::but;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use std::ops::Range;
@@ -24,11 +25,7 @@ use std::ops::Range;
 /// So many inputs as the variable `OZOLS_FUZZ` says; few where it says nothing.
 pub(crate) fn runs(few: u32) -> ProptestConfig {
     let cases = std::env::var("OZOLS_FUZZ").map_or(few, |n| n.parse().unwrap());
-    ProptestConfig {
-        cases,
-        max_shrink_iters: 200,
-        ..ProptestConfig::default()
-    }
+    but(|p: &mut ProptestConfig| (p.cases, p.max_shrink_iters) = (cases, 200))
 }
 
 /// What a piece of a text is.

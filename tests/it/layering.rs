@@ -228,7 +228,7 @@ fn no_files_import_each_other_in_a_circle() {
     let names: BTreeSet<String> = left.keys().map(|m| (*m).to_owned()).collect();
     let tied: Vec<String> = left
         .iter()
-        .map(|(m, of)| format!("{m} -> {:?}", of.intersection(&names).collect::<Vec<_>>()))
+        .map(|(m, of)| format!("{m} -> {:?}", of.intersection(&names).collect_vec()))
         .collect();
     assert!(tied.is_empty(), "in a circle, or between two: {tied:#?}");
 }

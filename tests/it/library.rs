@@ -1,10 +1,10 @@
 //! The library by its front door: what a program gets is what the command writes.
 
-use crate::common::{built_in, ozols, text, timeless};
+use crate::common::{built_in, but, ozols, run, text, timeless};
 use ozols::model::ranking::Term;
 use ozols::score::outcome::remarks::Remarks;
 use ozols::score::request::{Check, JointOptions, List, Method};
-use ozols::score::run::{Event, run};
+use ozols::score::run::{self, Event};
 use ozols::search::diagram::Stop;
 use ozols::search::question::conditions::Symmetry;
 use ozols::view::search::csv;
@@ -27,7 +27,7 @@ fn json(outcome: &Outcome) -> String {
 fn printed(name: &str, flags: &str) -> String {
     let mut args = vec!["search", name, "--format", "json"];
     args.extend(flags.split_whitespace());
-    timeless(&text(&ozols(&args).output().unwrap().stdout))
+    timeless(&text(&run(&args).stdout))
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn an_outcome_is_what_the_command_writes() {
 #[test]
 fn a_cancelled_search_says_so() {
     let m = built_in("gripper-10");
-    let outcome = run(m, &Request::default(), &|| true, &mut |_| {}).unwrap();
+    let outcome = run::run(m, &Request::default(), &|| true, &mut |_| {}).unwrap();
     assert_eq!(outcome.stop, Stop::Interrupted);
     assert!(!outcome.is_exact());
     assert_eq!(outcome.check.unwrap().agree(), None);
@@ -128,12 +128,9 @@ fn a_cancelled_search_says_so() {
 
 #[test]
 fn cancelled_orbits_are_not_called_exact() {
-    let request = Request {
-        symmetry: Symmetry::OnePerOrbit,
-        ..Request::default()
-    };
+    let request = but(|r: &mut Request| r.symmetry = Symmetry::OnePerOrbit);
     let built = AtomicBool::new(false);
-    let outcome = run(
+    let outcome = run::run(
         built_in("gripper-10"),
         &request,
         &|| built.load(Ordering::SeqCst),
@@ -184,11 +181,7 @@ fn a_variant_tells_of_itself() {
     assert_eq!(alone.redundant, best.redundant() as usize);
     let contours = best.redundant_by_contour().unwrap();
     assert!(contours.is_empty(), "no contour has any");
-    let few = Request {
-        max_redundant: 3,
-        max_changes: Some(3),
-        ..Request::default()
-    };
+    let few = but(|r: &mut Request| (r.max_redundant, r.max_changes) = (3, Some(3)));
     let outcome = search("gripper-10", &few);
     let best = outcome.variants().next().unwrap();
     let alone = &ozols::analyze(&best.mechanism()).unwrap()[0];
@@ -207,7 +200,7 @@ fn a_variant_tells_of_itself() {
 #[test]
 fn formats_and_drawings_are_those_of_the_command() {
     let m = built_in("four-bar");
-    let printed = |args: &[&str]| String::from_utf8(ozols(args).output().unwrap().stdout).unwrap();
+    let printed = |args: &[&str]| String::from_utf8(run(args).stdout).unwrap();
     let sdf = ozols::export(&m, "sdf").unwrap();
     assert_eq!(sdf, printed(&["export", "four-bar", "--to", "sdf"]));
     let svg = ozols::draw(&m, Scheme::Kinematic).unwrap();
@@ -235,10 +228,7 @@ fn csv_and_text_are_those_of_the_command() {
 
 #[test]
 fn errors_read_as_those_of_the_command() {
-    let request = Request {
-        hold: vec!["nosuch".to_owned()],
-        ..Request::default()
-    };
+    let request = but(|r: &mut Request| r.hold = vec!["nosuch".to_owned()]);
     let m = built_in("four-bar");
     let why = ozols::search(&m, &request).unwrap_err();
     assert!(matches!(why, Error::Search(_)));

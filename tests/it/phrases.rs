@@ -249,7 +249,7 @@ fn directions_that_are_guessed_are_told() {
     );
     let told = |option: &str| run_on("check", "pin.toml", &pin.replace("OPTION", option), &[]).2;
     let guessed = told("\"cylinder-on-plane\"");
-    let words = guessed.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = guessed.split_whitespace().collect_vec().join(" ");
     has(
         &words,
         "the normal of the plane of option \"cylinder-on-plane\" is taken along the pin at pin",

@@ -22,10 +22,7 @@ fn loaded() -> Mechanism {
 }
 
 fn search(m: &Mechanism, redundant: u32) -> Search {
-    let request = Conditions {
-        max_redundant: redundant,
-        ..Conditions::default()
-    };
+    let request = but(|c: &mut Conditions| c.max_redundant = redundant);
     Search::new(exact_field(m, 0).unwrap(), m, request).unwrap()
 }
 
@@ -123,11 +120,7 @@ fn over_a_stroke_the_scores_are_the_worst_of_its_poses() {
 }
 
 fn ranking(order: Order, terms: &[(Term, f64)]) -> Ranking {
-    Ranking {
-        order,
-        terms: terms.to_vec(),
-        ..Ranking::default()
-    }
+    but(|r: &mut Ranking| (r.order, r.terms) = (order, terms.to_vec()))
 }
 
 const TERMS: [(Term, f64); 3] = [

@@ -247,7 +247,7 @@ fn bad_questions_are_refused_and_leave_no_file() {
         let mut all = vec!["report"];
         all.extend(args);
         all.extend(["-o", path.to_str().unwrap()]);
-        let done = ozols(&all).output().unwrap();
+        let done = run(&all);
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert_eq!(done.status.code(), Some(2), "{all:?}: {said}");
         assert!(said.contains(what), "{all:?}: {said}");

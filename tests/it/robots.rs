@@ -113,11 +113,7 @@ fn poses_are_composed() {
         ..Options::default()
     };
     let i = import("arm.urdf", ARM.as_bytes(), &none, &turned).unwrap();
-    assert!(
-        i.toml().unwrap().contains("point = [-0.1, -0.2, 1]"),
-        "{}",
-        i.toml().unwrap()
-    );
+    has(&i.toml().unwrap(), "point = [-0.1, -0.2, 1]");
 }
 
 // Seen from the tip the chain is passed backwards; the tip's frame is the global one then.
@@ -146,10 +142,7 @@ fn another_frame() {
 // A floating base is one joint of six freedoms.
 #[test]
 fn floating() {
-    let options = Options {
-        floating: true,
-        ..Options::default()
-    };
+    let options = but(|o: &mut Options| o.floating = true);
     let i = import("arm.urdf", ARM.as_bytes(), &none, &options).unwrap();
     assert_eq!(figures(&i, 1e-9), [4, 3, 0, 8, 8, 0]);
 }

@@ -221,9 +221,7 @@ fn no_reader_reads_without_a_bound() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_search_says_how_much_memory_it_took_of_what_it_may() {
-    let o = ozols(&["search", "four-bar", "--memory", "300M"])
-        .output()
-        .unwrap();
+    let o = run(&["search", "four-bar", "--memory", "300M"]);
     let said = text(&o.stderr);
     has(&said, " MiB of memory (300 MiB allowed)");
 }

@@ -11,7 +11,7 @@ fn keys_of_analyze() {
     assert_eq!(v["mechanism"], "gripper-10");
     let states = v["states"].list();
     assert_eq!(
-        states.iter().map(|s| s["state"].word()).collect::<Vec<_>>(),
+        states.iter().map(|s| s["state"].word()).collect_vec(),
         ["free", "clamped"]
     );
     for s in states {
@@ -152,7 +152,7 @@ fn csv_columns() {
 fn symmetry_counts() {
     let counts = |more: &[&str]| {
         let args = small(&[&["--count", "--format", "json"][..], more].concat());
-        let o = run(&args.iter().map(String::as_str).collect::<Vec<_>>());
+        let o = run(&args.iter().map(String::as_str).collect_vec());
         assert_ne!(o.status.code(), Some(2));
         let v: Value = serde_json::from_slice(&o.stdout).unwrap();
         (count(&v["determinate"]), count(&v["admissible"]))

@@ -306,5 +306,5 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
 
 #[test]
 fn no_signal_no_such_code() {
-    assert_eq!(ozols(&["list"]).output().unwrap().status.code(), Some(0));
+    assert_eq!(run(&["list"]).status.code(), Some(0));
 }

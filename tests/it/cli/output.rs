@@ -141,9 +141,7 @@ fn output_through_a_symbolic_link() {
 
 #[test]
 fn a_search_says_how_long_it_took() {
-    let o = ozols(&["search", "four-bar", "--format", "json"])
-        .output()
-        .unwrap();
+    let o = run(&["search", "four-bar", "--format", "json"]);
     let whole = text(&o.stdout);
     let v: Value = serde_json::from_str(&whole).unwrap();
     let seconds = v["seconds"].real();
@@ -153,7 +151,7 @@ fn a_search_says_how_long_it_took() {
     assert!(last.starts_with("  \"seconds\": "), "{last}");
     assert_eq!(text(&o.stderr), "");
 
-    let said = |args: &[&str]| text(&ozols(args).output().unwrap().stderr);
+    let said = |args: &[&str]| text(&run(args).stderr);
     let line = said(&["search", "four-bar"]);
     assert!(line.starts_with("Searched in ") && line.lines().count() == 1);
     assert_eq!(said(&["search", "four-bar", "--quiet"]), "");

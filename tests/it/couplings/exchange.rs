@@ -5,9 +5,7 @@ use crate::common::*;
 
 #[test]
 fn the_report_has_a_row_for_each_coupling() {
-    let o = ozols(&["analyze", "planetary-gear", "--format", "json"])
-        .output()
-        .unwrap();
+    let o = run(&["analyze", "planetary-gear", "--format", "json"]);
     let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     let shares = &v["states"][0]["per_coupling"];
     assert_eq!(shares.list().len(), 6);
@@ -16,13 +14,7 @@ fn the_report_has_a_row_for_each_coupling() {
         (&shares[5]["redundant"], &shares[0]["greatest"]),
         (&1.into(), &1.into())
     );
-    let text = String::from_utf8(
-        ozols(&["analyze", "geared-gripper"])
-            .output()
-            .unwrap()
-            .stdout,
-    )
-    .unwrap();
+    let text = String::from_utf8(run(&["analyze", "geared-gripper"]).stdout).unwrap();
     has(&text, "c = 1 coupling");
     has(&text, "0-1 ~ 0-4");
 }
@@ -213,9 +205,7 @@ fn drawn_as_a_dashed_line_or_as_the_gears_that_they_are() {
         ("scheme", "coupled joints"),
         ("kinematic", "pitch circle of a gear"),
     ] {
-        let o = ozols(&["draw", "geared-gripper", "--kind", kind])
-            .output()
-            .unwrap();
+        let o = run(&["draw", "geared-gripper", "--kind", kind]);
         let svg = String::from_utf8(o.stdout).unwrap();
         assert!(
             svg.contains(legend) && svg.contains("Coupled: 0-1 ~ 0-4, ratio -1."),

@@ -8,7 +8,7 @@ use ozols::rank::method::registry;
 /// Asserts that a document has these words, wherever its lines are broken.
 pub(crate) fn says(document: &str, words: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
-    let in_one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let in_one_line = |text: &str| text.split_whitespace().collect_vec().join(" ");
     let text = in_one_line(&fs::read_to_string(path).unwrap());
     assert!(
         text.contains(&in_one_line(words)),
@@ -28,7 +28,7 @@ pub(crate) fn between(document: &str, comment: &str) -> String {
 fn grouped(digits: &str) -> String {
     let groups = digits.as_bytes().rchunks(3).rev();
     let groups = groups.map(|g| std::str::from_utf8(g).unwrap());
-    groups.collect::<Vec<_>>().join(",")
+    groups.collect_vec().join(",")
 }
 
 const MOBILITY: &str = "src/guide/mobility.md";

@@ -177,7 +177,7 @@ fn a_self_stress_that_is_not_there_is_told() {
         ),
         (&["draw", "gripper-10", "--idle", "1"], "--motion"),
     ] {
-        let done = ozols(args).output().unwrap();
+        let done = run(args);
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
         assert!(said.contains(what), "{args:?}: {said}");

@@ -211,7 +211,7 @@ fn what_cannot_be_drawn_is_said() {
             "three numbers",
         ),
     ] {
-        let done = ozols(&[&["draw"], &args[..]].concat()).output().unwrap();
+        let done = run(&[&["draw"], &args[..]].concat());
         let said = String::from_utf8_lossy(&done.stderr).into_owned();
         assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
         assert!(said.contains(what), "{args:?}: {said}");

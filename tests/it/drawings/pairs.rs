@@ -45,9 +45,7 @@ fn no_two_types_look_alike() {
             let what = n.tag_name().name();
             ["path", "circle"].contains(&what)
         });
-        shapes
-            .map(|n| svg[n.range()].to_owned())
-            .collect::<Vec<_>>()
+        shapes.map(|n| svg[n.range()].to_owned()).collect_vec()
     });
     let all: BTreeSet<&Vec<String>> = seen.iter().collect();
     assert_eq!(all.len(), seen.len());

@@ -1,9 +1,9 @@
 //! Drawings as PNG. Most of it needs the feature `png`: `cargo test --features png --test integration png`.
 
-use crate::common::ozols;
+use crate::common::run;
 
 fn refused(args: &[&str], what: &str) {
-    let done = ozols(args).output().unwrap();
+    let done = run(args);
     let said = String::from_utf8_lossy(&done.stderr).into_owned();
     assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
     assert!(said.contains(what), "{args:?}: {said}");
@@ -32,7 +32,7 @@ fn a_build_without_png_says_so() {
 #[cfg(feature = "png")]
 mod with_png {
     use super::refused;
-    use crate::common::{built_in, ozols};
+    use crate::common::built_in;
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
     use ozols::file::text::mechanism_from_str;
@@ -239,9 +239,7 @@ joint = [
         let dir = tempfile::tempdir().unwrap();
         for t in JointType::NAMED {
             let path = dir.path().join(format!("{t}.png"));
-            let done = ozols(&["explain", t.name(), "-o", path.to_str().unwrap()])
-                .output()
-                .unwrap();
+            let done = crate::common::run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
             let said = String::from_utf8_lossy(&done.stderr);
             assert!(done.status.success(), "{t}: {said}");
             let picture = Pixmap::decode_png(&std::fs::read(&path).unwrap()).unwrap();
@@ -255,9 +253,7 @@ joint = [
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("x.png");
         let path = path.to_str().unwrap();
-        let done = ozols(&["draw", "four-bar", "-o", path, "--width", "321"])
-            .output()
-            .unwrap();
+        let done = crate::common::run(&["draw", "four-bar", "-o", path, "--width", "321"]);
         assert!(
             done.status.success(),
             "{}",
@@ -266,9 +262,7 @@ joint = [
         let file = std::fs::read(path).unwrap();
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
-        let piped = ozols(&["draw", "four-bar", "--png", "--width", "321"])
-            .output()
-            .unwrap();
+        let piped = crate::common::run(&["draw", "four-bar", "--png", "--width", "321"]);
         assert_eq!(piped.stdout, file);
         refused(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
         refused(&["draw", "four-bar", "--png", "--width", "0"], "--width");

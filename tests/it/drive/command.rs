@@ -256,7 +256,7 @@ fn files_of_tables_alone_can_be_checked() {
     let (_folder, path) = written("turner.toml", SMALL);
     assert_eq!(out(&["check", path]), "turner: workload drive: valid\n");
     fs::write(path, small_with("inertia = 0.23", "inertia = 0")).unwrap();
-    let o = ozols(&["check", path]).output().unwrap();
+    let o = run(&["check", path]);
     assert_eq!(o.status.code(), Some(2));
 }
 

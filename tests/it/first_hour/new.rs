@@ -26,7 +26,7 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
                         s.redundant,
                     )
                 })
-                .collect::<Vec<_>>()
+                .collect_vec()
         };
         assert_eq!(figures(given), figures(&new), "{name}");
     }
@@ -127,7 +127,7 @@ fn the_list_is_by_family_and_can_be_narrowed() {
             .skip(2)
             .filter(|l| l.starts_with("  ") && !l.starts_with("   "));
         rows.map(|l| l.split_whitespace().next().unwrap().to_owned())
-            .collect::<Vec<_>>()
+            .collect_vec()
     };
     assert_eq!(
         rows(&["list", "bennett"]),

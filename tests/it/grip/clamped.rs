@@ -318,10 +318,7 @@ fn statics_say_which_loads_came_from_the_grip() {
 #[test]
 fn a_grip_without_load_has_no_forces() {
     let mut m = built_in();
-    m.loads = Loads {
-        grip: m.loads.grip.clone(),
-        ..Loads::default()
-    };
+    m.loads = but(|l: &mut Loads| l.grip = m.loads.grip.clone());
     let g = clamped(&m);
     assert!(matches!(
         g.study.rows[0].hardest.as_ref().unwrap().verdict,

@@ -268,7 +268,7 @@ fn three_contacts_in_a_plane_never_close() {
                         face: String::new(),
                     }
                 })
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         );
         text.replacen("name = \"vice\"", "name = \"vice\"\nmode = \"planar\"", 1)
     };

@@ -9,7 +9,7 @@ fn number(v: &Value) -> f64 {
 fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
     let (_folder, path) = written("lift.csv", table);
     let args = [&["grip", "lever-gripper", "--motion", path], more].concat();
-    let o = ozols(&args).output().unwrap();
+    let o = run(&args);
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }
 
@@ -39,8 +39,7 @@ fn every_step_has_its_own_least_force() {
     // The step alone, as the one case of a file.
     let file = json(&["grip", "lever-gripper", "--format", "json"]);
     assert!(file.get("motion").is_some_and(Value::is_null));
-    let shown =
-        String::from_utf8(ozols(&["show", "lever-gripper"]).output().unwrap().stdout).unwrap();
+    let shown = String::from_utf8(run(&["show", "lever-gripper"]).stdout).unwrap();
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");
     assert_ne!(shown, alone);
     let (_, said, errors) =

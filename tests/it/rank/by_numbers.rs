@@ -54,8 +54,8 @@ fn figures(s: &StateAnalysis) -> String {
         s.local_mobility,
         s.rank,
         s.redundant,
-        contours.collect::<Vec<_>>(),
-        couplings.collect::<Vec<_>>(),
+        contours.collect_vec(),
+        couplings.collect_vec(),
     )
 }
 

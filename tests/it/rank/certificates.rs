@@ -324,26 +324,17 @@ fn long_numbers_take_more_primes_and_budgets_hold() {
     let m = sparse(&rationals, &dense, 13);
     let c = certify_matrix(&rationals, &m, "free", Budget::default()).unwrap();
     assert_eq!(verify::check(&m, &c), Ok(12));
-    let few = Budget {
-        primes: 3,
-        ..Budget::default()
-    };
+    let few = but(|b: &mut Budget| b.primes = 3);
     assert!(matches!(
         certify_matrix(&rationals, &m, "free", few),
         Err(NoCertificate::TooManyPrimes { primes: 3 })
     ));
-    let small = Budget {
-        coordinates: 12,
-        ..Budget::default()
-    };
+    let small = but(|b: &mut Budget| b.coordinates = 12);
     assert_eq!(
         certify_matrix(&rationals, &m, "free", small),
         Err(NoCertificate::TooLarge { coordinates: 13 })
     );
-    let short = Budget {
-        operations: 10,
-        ..Budget::default()
-    };
+    let short = but(|b: &mut Budget| b.operations = 10);
     assert!(matches!(
         certify_matrix(&rationals, &m, "free", short),
         Err(NoCertificate::TooMuchWork { .. })

@@ -101,9 +101,7 @@ axis = [0, 0, 1]
         let of = |v: &Value| v["twists"][0][k].real().abs();
         near(of(&there), of(&back), 1e-9);
     }
-    let o = ozols(&["analyze", "four-bar", "--link", "nowhere"])
-        .output()
-        .unwrap();
+    let o = run(&["analyze", "four-bar", "--link", "nowhere"]);
     assert_eq!(o.status.code(), Some(2));
     let said = String::from_utf8(o.stderr).unwrap();
     has(&said, "has no link nowhere; it has: 0, 1, 2, 3");

@@ -130,7 +130,7 @@ impl Ring {
         let x = [0, 1, 2].map(|i| r[i] * dot(z, z) - z[i] * dot(z, r));
         let axes = [x, cross(z, x), z];
         let (_, turns, slides) = TYPES[t];
-        let has = |set: [bool; 3]| (0..3).filter(|&i| set[i]).collect::<Vec<_>>();
+        let has = |set: [bool; 3]| (0..3).filter(|&i| set[i]).collect_vec();
         let lacks = |set: [bool; 3]| axes[(0..3).find(|&i| !set[i]).unwrap()];
         let turn = match has(turns)[..] {
             [] => false,
@@ -215,10 +215,7 @@ fn ring() -> impl Strategy<Value = Ring> {
 
 /// How many variants there are by mobility, of all with few enough redundant constraints and of the admissible ones.
 fn counts(m: &Mechanism, max_redundant: u32) -> [BTreeMap<i64, num_bigint::BigUint>; 2] {
-    let conditions = Conditions {
-        max_redundant,
-        ..Conditions::default()
-    };
+    let conditions = but(|c: &mut Conditions| c.max_redundant = max_redundant);
     let search = Search::new(exact_field(m, 0).unwrap(), m, conditions).unwrap();
     let found = search.build(&|| false, &mut |_| {});
     [(&found.determinate, false), (&found.admissible, true)]

@@ -60,7 +60,7 @@ fn paths_pass_joints_either_way() {
     let rows = |forward: bool| {
         let all = pose.jacobian_with(&[vec![(joint, forward)]], &[]);
         let first = pose.rows();
-        (0..6).map(|i| all[(first + i, 0)]).collect::<Vec<_>>()
+        (0..6).map(|i| all[(first + i, 0)]).collect_vec()
     };
     let (there, back) = (rows(true), rows(false));
     assert!(there.iter().any(|x| x.abs() > 0.1));

@@ -301,9 +301,7 @@ fn the_command() {
 
 #[test]
 fn a_stroke_that_stops_is_no_success() {
-    let o = ozols("analyze four-bar --stroke 0:180deg:9 --drive 3-0 --format json")
-        .output()
-        .unwrap();
+    let o = run("analyze four-bar --stroke 0:180deg:9 --drive 3-0 --format json");
     assert_eq!(o.status.code(), Some(1));
     let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["stroke"]["stop"]["why"], "dead-point");
@@ -327,7 +325,7 @@ fn bad_strokes_are_refused() {
         ),
         (&["four-bar", "--drive", "0-1"], "--stroke"),
     ] {
-        let o = ozols(&[&["analyze"], args].concat()).output().unwrap();
+        let o = run(&[&["analyze"], args].concat());
         let err = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{args:?}");
         assert!(err.contains(part), "{args:?}: {err}");

@@ -104,7 +104,7 @@ fn bad_rankings_are_refused_with_line_item_and_remedy() {
         ),
     ] {
         let (_folder, path) = written("bad.toml", text);
-        let o = ozols(&["search", path]).output().unwrap();
+        let o = run(&["search", path]);
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
         has(&said, "bad.toml:");
@@ -113,9 +113,7 @@ fn bad_rankings_are_refused_with_line_item_and_remedy() {
         }
     }
     for args in [["--rank", "price"], ["--rank", "cost=nan"], ["--pool", "0"]] {
-        let o = ozols(&[&["search", "gripper-10-loaded"], &args[..]].concat())
-            .output()
-            .unwrap();
+        let o = run(&[&["search", "gripper-10-loaded"], &args[..]].concat());
         assert_eq!(o.status.code(), Some(2), "{args:?}");
     }
 }

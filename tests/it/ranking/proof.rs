@@ -1,6 +1,7 @@
 //! Whether what a ranking calls proven is: all variants scored, and put in order.
 
 use super::loaded;
+use crate::common::but;
 use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::model::mechanism::Mechanism;
@@ -171,11 +172,7 @@ fn dear_variants_that_bear_best_are_found() {
 fn the_same_for_any_number_of_threads() {
     let m = loaded();
     let terms = [(Term::PeakForce, 10.0), (Term::OutputError, 5.0)];
-    let ranking = Ranking {
-        order: Order::Weighted,
-        terms: terms.to_vec(),
-        ..Ranking::default()
-    };
+    let ranking = but(|r: &mut Ranking| (r.order, r.terms) = (Order::Weighted, terms.to_vec()));
     let found = [1, 2, 3].map(|threads| ranked(&m, &ranking, threads).ranking.unwrap());
     assert!(found[0].proven && found[0].elsewhere.is_some());
     let places: HashMap<usize, usize> = found[0].list.iter().map(|r| (r.by_cost, 1)).collect();

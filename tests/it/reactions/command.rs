@@ -47,7 +47,7 @@ fn bad_workloads_are_refused_with_line_item_and_remedy() {
         ),
     ] {
         let (_folder, path) = written("bad.toml", format!("{good}\n{more}"));
-        let o = ozols(&["statics", path]).output().unwrap();
+        let o = run(&["statics", path]);
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!(o.status.code(), Some(2), "{said}");
         has(&said, "bad.toml:");

@@ -290,7 +290,7 @@ fn the_drive_does_what_the_loads_take_at_every_pose() {
             &turns
                 .iter()
                 .map(|x| if name == "rack-gripper" { 20.0 * x } else { *x })
-                .collect::<Vec<_>>(),
+                .collect_vec(),
         );
     }
     assert_eq!(tried, 28);

@@ -232,7 +232,7 @@ fn the_command_goes_over_the_stroke() {
     let said = out(&args);
     has(&said, "greatest joint reactions over 5 poses");
     has(&said, "Drive 0-1 holds tz: from ");
-    let with = |more: &[&'static str]| args.iter().chain(more).copied().collect::<Vec<_>>();
+    let with = |more: &[&'static str]| args.iter().chain(more).copied().collect_vec();
     let v = json(&with(&["--format", "json"]));
     assert_eq!(v["positions"].list().len(), 5);
     assert_eq!(v["positions"][4]["drive"], 0.3);
@@ -246,10 +246,8 @@ fn the_command_goes_over_the_stroke() {
         assert!((x - y).abs() < 1e-9 * x.max(1.0));
     }
     // Farther than it goes.
-    let o = ozols("statics gripper-10-loaded --spatial --stroke 0:1000:4")
-        .output()
-        .unwrap();
+    let o = run("statics gripper-10-loaded --spatial --stroke 0:1000:4");
     assert_eq!(o.status.code(), Some(1));
-    let said = String::from_utf8(o.stdout).unwrap();
+    let said = text(&o.stdout);
     has(&said, "The stroke could not be followed to");
 }

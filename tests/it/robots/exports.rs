@@ -31,8 +31,7 @@ fn toml_and_json() {
                     .joints
                     .iter()
                     .flat_map(|j| j.options.iter().chain(&j.unloading));
-                all.map(|o| (o.name.clone(), o.cost_milli))
-                    .collect::<Vec<_>>()
+                all.map(|o| (o.name.clone(), o.cost_milli)).collect_vec()
             };
             assert_eq!(names(&back), names(&m), "{}", m.name);
             let states: Vec<StateId> = m.state_ids().collect();
@@ -48,7 +47,7 @@ fn toml_and_json() {
                             s.redundant,
                         )
                     })
-                    .collect::<Vec<_>>()
+                    .collect_vec()
             };
             assert_eq!(figures(&back), figures(&m), "{}", m.name);
         }

@@ -1,6 +1,6 @@
 //! Robots: what is written has mass wherever engines want some, and next to none where nothing is.
 
-use crate::common::{has, ozols, run_on, text};
+use crate::common::{has, run, run_on, text};
 
 /// The masses and moments of inertia of links whose name is asked for, by the attributes of URDF.
 fn weights(urdf: &str, wanted: impl Fn(&str) -> bool) -> Vec<[f64; 4]> {
@@ -56,7 +56,7 @@ fn what_moves_in_an_exported_urdf_weighs_something() {
     // Joints in series of a mechanism of our own; what stands still needs no mass.
     let words = ["export", "gripper-10", "--variant", "1", "--to"];
     let of = |format: &str| {
-        let o = ozols(&[&words[..], &[format]].concat()).output().unwrap();
+        let o = run(&[&words[..], &[format]].concat());
         assert!(o.status.success(), "{}", text(&o.stderr));
         text(&o.stdout)
     };

@@ -1,6 +1,6 @@
 //! MJCF: orientations, defaults, joints in series, equalities, includes.
 
-use crate::common::{has_all, ozols};
+use crate::common::{but, has_all, run};
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};
 
@@ -8,10 +8,7 @@ use ozols::robots::{Options, import};
 #[test]
 fn mjcf_reference_pose() {
     let at = |value: f64| {
-        let options = Options {
-            pose: vec![("j".to_owned(), vec![value])],
-            ..Options::default()
-        };
+        let options = but(|o: &mut Options| o.pose = vec![("j".to_owned(), vec![value])]);
         let text = mjcf(
             "<worldbody><body name='a'><joint name='j' ref='90'/><body name='b' pos='1 0 0'><joint name='k'/></body></body></worldbody>",
         );
@@ -256,9 +253,7 @@ fn includes_on_disk() {
     ] {
         let main = inner.join("main.xml");
         std::fs::write(&main, mjcf(&format!("<include file='{file}'/>"))).unwrap();
-        let o = ozols(&["export", main.to_str().unwrap(), "--to", "toml"])
-            .output()
-            .unwrap();
+        let o = run(&["export", main.to_str().unwrap(), "--to", "toml"]);
         assert_eq!(o.status.code(), Some(code), "{file}");
     }
 }

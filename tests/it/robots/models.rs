@@ -1,6 +1,6 @@
 //! Whole models, and loop closures from files beside them.
 
-use crate::common::{has, ozols};
+use crate::common::{but, has, run, text};
 use crate::robots::{ARM, figures, folder, model, none, refused};
 use ozols::robots::{Options, import};
 
@@ -79,10 +79,7 @@ fn figures_of_models() {
 // A planar four-bar in space: W = 1, σ = 3.
 #[test]
 fn four_bars() {
-    let together = Options {
-        assemble: true,
-        ..Options::default()
-    };
+    let together = but(|o: &mut Options| o.assemble = true);
     let i = model("four_bar_loop.sdf", &together);
     assert_eq!(figures(&i, 1e-9), [4, 4, 1, 4, 1, 3]);
     let i = model("four_bar_weld.sdf", &together);
@@ -165,14 +162,12 @@ fn side_files() {
 #[test]
 fn descriptions_as_files() {
     let file = folder().join("gripper.xml");
-    let o = ozols(&format!(
+    let o = run(&format!(
         "analyze {} --method svd --format json",
         file.display()
-    ))
-    .output()
-    .unwrap();
+    ));
     assert_eq!(o.status.code(), Some(0));
-    assert!(!String::from_utf8(o.stderr).unwrap().contains("coupling"));
+    assert!(!text(&o.stderr).contains("coupling"));
     let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(
         (&v["states"][0]["redundant"], &v["states"][0]["mobility"]),

@@ -72,8 +72,7 @@ fn oblique_axes_are_two_hinges() {
             .joints
             .iter()
             .filter(|j| j.joint_type.freedoms().len() < 6);
-        own.map(|j| j.joint_type.freedoms().len())
-            .collect::<Vec<_>>()
+        own.map(|j| j.joint_type.freedoms().len()).collect_vec()
     };
     assert_eq!(with("0 1 0"), [2]);
     assert_eq!(with("1 1 0"), [1, 1]);
@@ -131,7 +130,7 @@ fn joints_to_the_world_are_turned_round() {
         let text = formats::write(&m, "sdf").unwrap();
         let all = text.split("expressed_in=\"__model__\">").skip(1);
         let all = all.map(|t| t.split('<').next().unwrap().to_owned());
-        all.collect::<Vec<_>>()
+        all.collect_vec()
     };
     assert_eq!(axes("type = \"revolute\""), ["0 0 -1"]);
     assert_eq!(axes("type = \"universal\""), ["-1 0 0", "0 0 -1"]);

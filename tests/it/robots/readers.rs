@@ -1,7 +1,7 @@
 //! What robot descriptions are read: kinds of files that were refused, or read wrongly, and bad ones of their kind that still
 //! are refused with the place and the reason.
 
-use crate::common::{cases, has, has_all, ozols, run_on};
+use crate::common::{but, cases, has, has_all, run, run_on};
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{figures, folder, none, refused};
 use ozols::file::schema::Coordinate;
@@ -96,9 +96,7 @@ fn sdf_includes_of_models() {
             "<sdf version='1.7'>\n<world name='w'>\n<include>{include}</include></world></sdf>"
         );
         let file = put("main/world.sdf", &text);
-        let o = ozols(&["export", &file, "--to", "toml", "--models", &models])
-            .output()
-            .unwrap();
+        let o = run(&["export", &file, "--to", "toml", "--models", &models]);
         (
             o.status.code(),
             String::from_utf8(o.stdout).unwrap(),
@@ -228,11 +226,7 @@ fn joints_held_at_a_constant() {
         &text("<joint joint1='j' polycoef='1.5707963267948966'/>"),
     );
     assert_eq!((figures(&i, 1e-9)[4], i.report.coupling_rows), (1, 0));
-    assert!(
-        i.toml().unwrap().contains("point = [0, 1, 0]"),
-        "{}",
-        i.toml().unwrap()
-    );
+    has(&i.toml().unwrap(), "point = [0, 1, 0]");
 }
 
 // Numbers beyond all that are read are no limits; others are still wrong.
@@ -252,10 +246,7 @@ fn limits_without_end() {
 #[test]
 fn links_named_world() {
     let urdf = "<robot name='r'><link name='world'/><link name='b'/><joint name='j' type='continuous'><parent link='world'/><child link='b'/></joint></robot>";
-    let floating = Options {
-        floating: true,
-        ..Options::default()
-    };
+    let floating = but(|o: &mut Options| o.floating = true);
     let i = import("r.urdf", urdf.as_bytes(), &none, &floating).unwrap();
     assert_eq!(figures(&i, 1e-9)[4], 1);
     let sdf = |pose: &str| {
@@ -296,7 +287,7 @@ fn includes_within_a_named_root() {
         if models {
             words.extend(["--models", &root]);
         }
-        let o = ozols(&words).output().unwrap();
+        let o = run(&words);
         assert_eq!(o.status.code(), Some(code), "{file}");
     }
 }
@@ -396,10 +387,7 @@ fn a_second_axis_is_carried_by_the_first() {
         (0.0, [0.0, 0.0, 1.0]),
         (std::f64::consts::FRAC_PI_2, [0.0, 1.0, 0.0]),
     ] {
-        let options = Options {
-            pose: vec![("j".to_owned(), vec![first, 0.0])],
-            ..Options::default()
-        };
+        let options = but(|o: &mut Options| o.pose = vec![("j".to_owned(), vec![first, 0.0])]);
         let i = import("r.urdf", urdf.as_bytes(), &none, &options).unwrap();
         let frame = &i.mechanism.joints[0].frame;
         let normal = cross(real(&frame.axis), real(&frame.reference)).map(f64::abs);

@@ -1,6 +1,6 @@
 //! SDF: places, axes, kinds of joints, nested and static models.
 
-use crate::common::{cases, has, has_all};
+use crate::common::{but, cases, has, has_all};
 use crate::robots::mjcf::toml_of;
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};
@@ -39,10 +39,7 @@ fn sdf_kinds() {
         let text = sdf(&format!(
             "<link name='a'/><link name='b'/><joint name='j' type='{kind}'><parent>a</parent><child>b</child>{more}</joint>"
         ));
-        let options = Options {
-            frame: Some("a".to_owned()),
-            ..Options::default()
-        };
+        let options = but(|o: &mut Options| o.frame = Some("a".to_owned()));
         import("m.sdf", text.as_bytes(), &none, &options)
     };
     let axis = "<axis><xyz>0 0 1</xyz></axis>";

@@ -302,8 +302,7 @@ fn bounds_do_not_contradict_each_other() {
                 "--nodes",
                 &nodes,
             ];
-            let found: Value =
-                serde_json::from_slice(&ozols(&args).output().unwrap().stdout).unwrap();
+            let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();
             let number = |v: &Value| v.word().parse::<u64>().unwrap();
             cut += usize::from(found["determinate_exact"] == false);
             let [all, some] = ["determinate", "admissible"].map(|k| number(&found[k]));

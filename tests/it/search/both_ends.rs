@@ -12,11 +12,7 @@ use std::fmt::Write;
 
 /// Conditions within so many nodes.
 fn within(nodes: usize, keep_output: bool) -> Conditions {
-    Conditions {
-        nodes,
-        keep_output,
-        ..Conditions::default()
-    }
+    but(|c: &mut Conditions| (c.nodes, c.keep_output) = (nodes, keep_output))
 }
 
 /// Whether a diagram has no two nodes that lead on alike.
@@ -51,7 +47,7 @@ fn assert_same(pairs: Vec<[Option<Diagram>; 2]>, text: &str) -> usize {
     let edges = |d: &Diagram| {
         let layers = d.layers.iter();
         let all = layers.map(|l| (l.variable, l.edges.clone()));
-        all.collect::<Vec<_>>()
+        all.collect_vec()
     };
     let mut count = 0;
     for pair in pairs {

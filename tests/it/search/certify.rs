@@ -114,9 +114,7 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
 fn a_variant_that_two_methods_see_differently_is_marked() {
     let (_folder, path) = written("shaky.toml", shaky());
     let said = |more: &[&str]| {
-        let o = ozols(&[&["search", path][..], more].concat())
-            .output()
-            .unwrap();
+        let o = run(&[&["search", path][..], more].concat());
         let warned = String::from_utf8(o.stderr).unwrap();
         has(&warned, "nearly singular");
         String::from_utf8(o.stdout).unwrap()
@@ -179,7 +177,7 @@ fn a_long_list_says_where_the_checking_ends() {
 fn search(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
     let (_folder, path) = written("it.toml", text);
     let args = [&["search", path], more].concat();
-    let o = ozols(&args).output().unwrap();
+    let o = run(&args);
     let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
     (o.status.code(), text(o.stdout), text(o.stderr))
 }

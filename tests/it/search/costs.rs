@@ -70,7 +70,7 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
         let o = run(&["search", "gripper-10", "--costs", &path]);
         let err = text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{to}");
-        let words = err.split_whitespace().collect::<Vec<_>>().join(" ");
+        let words = err.split_whitespace().collect_vec().join(" ");
         assert!(words.contains(said), "{to}: {err}");
         let printed = fs::read_to_string(&path).unwrap();
         let line = printed
@@ -102,7 +102,7 @@ fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
         fs::write(&path, text).unwrap();
         let v = json(&["search", path.to_str().unwrap(), "--format", "json"]);
         let all = v["variants"].list().iter();
-        all.map(|v| v["cost"].real()).collect::<Vec<_>>()
+        all.map(|v| v["cost"].real()).collect_vec()
     };
     let default = list("1");
     assert!(!default.is_empty() && default.iter().all(|c| *c > 1.0));

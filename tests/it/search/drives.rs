@@ -9,10 +9,7 @@ use ozols::search::question::kept::Drives;
 
 /// Returns a search of a mechanism, ready to be made.
 fn search(m: &Mechanism, drives: Drives) -> Result<Search, SearchError> {
-    let conditions = Conditions {
-        drives,
-        ..Conditions::default()
-    };
+    let conditions = but(|c: &mut Conditions| c.drives = drives);
     Search::new(exact_field(m, 0).unwrap(), m, conditions)
 }
 
@@ -183,10 +180,10 @@ fn nothing_found_with_independent_drives_is_an_answer() {
         GANTRY.replace("\"fixed\", \"slotted\", {", "\"fixed\", {"),
     );
     let words = ["search", file, "--drives", "independent"];
-    let o = crate::common::ozols(&words).output().unwrap();
+    let o = crate::common::run(&words);
     assert_eq!(o.status.code(), Some(1), "{o:?}");
     let count = [&words[..], &["--count", "--format", "json", "-q"]].concat();
-    let o = crate::common::ozols(&count).output().unwrap();
+    let o = crate::common::run(&count);
     let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(
         (o.status.code(), crate::common::count(&found["admissible"])),

@@ -20,7 +20,7 @@ pub(crate) fn file(text: &str) -> (TempDir, String) {
 pub(crate) fn pads() -> String {
     let text = builtin::text("gripper-10").unwrap();
     let lines = text.lines().filter(|l| !l.contains("name = \"cross\""));
-    let text = lines.collect::<Vec<_>>().join("\n");
+    let text = lines.collect_vec().join("\n");
     let text = changed(&text, "    \"universal\",\n", "");
     let text = changed(
         &text,

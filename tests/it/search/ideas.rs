@@ -313,10 +313,7 @@ fn of_a_search_cut_short_ideas_are_bounds_and_none_is_proven_the_cheapest() {
 #[test]
 fn an_idea_says_what_is_added_where() {
     let gripper = built_in("gripper-10");
-    let request = Request {
-        max_mobility: Some(1),
-        ..Request::default()
-    };
+    let request = but(|r: &mut Request| r.max_mobility = Some(1));
     let outcome = search(&gripper, &request).unwrap();
     let ideas = outcome.search.ideas(outcome.diagrams.as_ref().unwrap(), 20);
     // 11 redundant constraints, one of which is the turn of the slider that the rods share: 11 freedoms are added.

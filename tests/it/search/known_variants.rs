@@ -11,7 +11,7 @@ fn crowded(text: &str, below: i64) -> String {
             Some(place) => {
                 let numbers = place.trim_end_matches(']').split(", ");
                 let numbers = numbers.map(|n| n.parse::<i64>().unwrap() % below);
-                writeln!(out, "point = {:?}", numbers.collect::<Vec<_>>()).unwrap();
+                writeln!(out, "point = {:?}", numbers.collect_vec()).unwrap();
             }
             None => writeln!(out, "{line}").unwrap(),
         }
@@ -22,7 +22,7 @@ fn crowded(text: &str, below: i64) -> String {
 /// Whether two hinges have one x or one y: they are then on a line along an axis, about which options tilt.
 fn is_in_line(text: &str) -> bool {
     let points = text.lines().filter_map(|l| l.strip_prefix("point = ["));
-    let places = points.map(|p| p.split(", ").map(str::to_owned).collect::<Vec<_>>());
+    let places = points.map(|p| p.split(", ").map(str::to_owned).collect_vec());
     let places: Vec<Vec<String>> = places.collect();
     (0..2).any(|c| !places.iter().map(|p| &p[c]).all_unique())
 }

@@ -13,11 +13,7 @@ use proptest::prelude::*;
 
 /// Returns a search over the prime that is the `nth`, which is asked what lasts.
 fn search(m: &Mechanism, nth: usize, symmetry: Symmetry) -> Search {
-    let conditions = Conditions {
-        throughout: true,
-        symmetry,
-        ..Conditions::default()
-    };
+    let conditions = but(|c: &mut Conditions| (c.throughout, c.symmetry) = (true, symmetry));
     Search::new(exact_field(m, nth).unwrap(), m, conditions).unwrap()
 }
 
@@ -135,10 +131,7 @@ fn the_gripper_loses_no_variant_with_one_motion() {
 fn a_motion_that_is_not_followed_is_said_to_be() {
     let why = |name: &str, change: fn(&mut Conditions)| {
         let m = ozols::built_in(name).unwrap();
-        let mut conditions = Conditions {
-            throughout: true,
-            ..Conditions::default()
-        };
+        let mut conditions = but(|c: &mut Conditions| c.throughout = true);
         change(&mut conditions);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
         search.pose_only().cloned()
@@ -172,7 +165,7 @@ fn the_drawn_pose_alone_is_searched_where_that_is_asked() {
     assert_eq!(all["admissible"], pose["admissible"]);
     assert_eq!(all["lasting"], "5");
     assert!(pose["lasting"].is_null() && pose["pose_only"].is_string());
-    let o = ozols(&["search", "sarrus"]).output().unwrap();
+    let o = run(&["search", "sarrus"]);
     let text = String::from_utf8(o.stdout).unwrap();
     assert!(text.starts_with("sarrus: 5 of 3,125 variants"), "{text}");
 }

@@ -4,7 +4,7 @@ use crate::common::*;
 
 /// Returns the JSON of a command whatever its exit code, and that code.
 fn answer(args: &[&str]) -> (Value, Option<i32>) {
-    let o = ozols(args).output().unwrap();
+    let o = run(args);
     let value = serde_json::from_slice(&o.stdout).unwrap_or(Value::Null);
     (value, o.status.code())
 }
@@ -52,18 +52,14 @@ fn usual_options_count_as_stated_ones() {
 #[test]
 fn coupled_joints_keep_their_coupled_freedom() {
     let args = ["search", "planetary-gear", "--count", "-q"];
-    let o = ozols(&[&args[..], &["--allow", "c-1=spherical"]].concat())
-        .output()
-        .unwrap();
+    let o = run(&[&args[..], &["--allow", "c-1=spherical"]].concat());
     assert_eq!(
         o.status.code(),
         Some(2),
         "{}",
         String::from_utf8_lossy(&o.stderr)
     );
-    let o = ozols(&[&args[..], &["--allow", "c-1=cylindrical"]].concat())
-        .output()
-        .unwrap();
+    let o = run(&[&args[..], &["--allow", "c-1=cylindrical"]].concat());
     assert_ne!(
         o.status.code(),
         Some(2),
@@ -102,7 +98,7 @@ options = ["revolute", "cylindrical"]
 #[test]
 fn the_type_that_opens_a_search_is_named_and_does() {
     let (_folder, file) = written("two-arms.toml", TWO_ARMS);
-    let o = ozols(&["search", file]).output().unwrap();
+    let o = run(&["search", file]);
     assert_eq!(o.status.code(), Some(1));
     let text = String::from_utf8(o.stdout).unwrap();
     let command = text
@@ -203,7 +199,7 @@ fn symmetric_variants_of_joints_at_one_place_are_found() {
 #[test]
 fn an_unsymmetric_mechanism_is_refused() {
     let (_folder, file) = written("hand.toml", hand(3).replace("[-20, 30, 0]", "[-21, 30, 0]"));
-    let o = ozols(&["search", file, "--symmetric"]).output().unwrap();
+    let o = run(&["search", file, "--symmetric"]);
     assert_eq!(o.status.code(), Some(2));
     assert!(o.stdout.is_empty());
 }
@@ -228,9 +224,7 @@ fn every_set_of_freedoms_is_offered_by_one_word() {
         "-q",
     ]);
     assert_eq!(found["space"], 3u64.pow(12).to_string());
-    let o = ozols("search four-bar --options any --no-distinct --top 3")
-        .output()
-        .unwrap();
+    let o = run("search four-bar --options any --no-distinct --top 3");
     assert!(
         String::from_utf8(o.stderr)
             .unwrap()
@@ -244,7 +238,7 @@ fn every_subset_of_freedoms_is_a_choice() {
     let args = words(
         "search four-bar --options any --all --allow-output-change --max-redundant 9 --format jsonl -q --check none",
     );
-    let o = ozols(&args).output().unwrap();
+    let o = run(&args);
     let text = String::from_utf8(o.stdout).unwrap();
     let mut at_one = std::collections::BTreeSet::new();
     for line in text.lines() {

@@ -113,7 +113,7 @@ fn variants_in_every_format_and_drawn() {
             "no variant 999: the search gives",
         ),
     ] {
-        let o = ozols(&args).output().unwrap();
+        let o = run(&args);
         let said = String::from_utf8(o.stderr).unwrap();
         assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0));
         assert!(said.contains(part), "{said}");
@@ -160,9 +160,7 @@ fn what_would_help_where_nothing_is_found() {
     ];
     let mut seen = std::collections::BTreeSet::new();
     for q in questions {
-        let o = ozols(&with(&with(&["search"], q), &["--format", "json"]))
-            .output()
-            .unwrap();
+        let o = run(&with(&with(&["search"], q), &["--format", "json"]));
         assert_eq!(o.status.code(), Some(1), "{q:?}");
         let value: Value = serde_json::from_slice(&o.stdout).unwrap();
         let eased = value["relaxations"].list();
@@ -184,7 +182,7 @@ fn what_would_help_where_nothing_is_found() {
                 args.extend(to.map(|n| n.to_string()));
                 args.extend(["--count", "--format", "json"].map(str::to_owned));
                 let args: Vec<&str> = args.iter().map(String::as_str).collect();
-                let o = ozols(&args).output().unwrap();
+                let o = run(&args);
                 let v: Value = serde_json::from_slice(&o.stdout).unwrap();
                 count(&v["admissible"])
             };
@@ -195,7 +193,7 @@ fn what_would_help_where_nothing_is_found() {
                 assert_eq!(ask(Some(n - 1)), 0, "{q:?} {r}");
             }
         }
-        let o = ozols(&with(&["search"], q)).output().unwrap();
+        let o = run(&with(&["search"], q));
         let text = String::from_utf8(o.stdout).unwrap();
         assert!(text.starts_with("gripper-10: none of "), "{text}");
         has(&text, "Offer more options");

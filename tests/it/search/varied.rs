@@ -165,7 +165,7 @@ fn carried_round() -> impl Strategy<Value = String> {
     drawn.prop_map(|(parts, chain)| {
         let mut out = String::from("name = \"round\"\n[search]\nturn = [");
         for i in 0..chain.len() {
-            let names = (0..parts).map(|k| format!("\"p{k}j{i}\"")).collect::<Vec<_>>().join(", ");
+            let names = (0..parts).map(|k| format!("\"p{k}j{i}\"")).collect_vec().join(", ");
             out += &format!("[{names}],");
         }
         out += "]\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"s\"\n";

@@ -94,7 +94,7 @@ fn another_name_is_put_wherever_the_file_has_it() {
             id: (*id).to_owned(),
             to: format!("the {what} {id}"),
         });
-        let renamed = edited(text, &edits.collect::<Vec<_>>()).unwrap();
+        let renamed = edited(text, &edits.collect_vec()).unwrap();
         let after = read(&renamed);
         let ids: Vec<String> = m
             .joints

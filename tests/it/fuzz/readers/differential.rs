@@ -76,7 +76,7 @@ fn mechanism(bytes: &mut Bytes<'_>) -> String {
     let two = bytes.below(2) == 1;
     let offered = bytes.next();
     let all = (0..8).filter(|i| offered >> i & 1 == 1).map(|i| TYPES[i]);
-    writeln!(out, "[search]\noptions = {:?}", all.collect::<Vec<_>>()).unwrap();
+    writeln!(out, "[search]\noptions = {:?}", all.collect_vec()).unwrap();
     for l in 0..links {
         let role = match l {
             0 => "role = \"frame\"",

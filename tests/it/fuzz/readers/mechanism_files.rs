@@ -59,7 +59,7 @@ pub(crate) fn told(e: &ImportError) -> String {
     assert!(!e.problems.is_empty());
     let _ = e.render(true);
     let said = e.problems.iter().map(|p| p.kind.to_string());
-    said.collect::<Vec<_>>().join("\n")
+    said.collect_vec().join("\n")
 }
 
 /// Reads the tables of a workload, with the mechanism around them and alone. Returns what was said.

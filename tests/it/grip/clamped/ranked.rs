@@ -18,10 +18,7 @@ fn pool(s: &Search, n: usize) -> Vec<Assignment> {
 fn variants_are_scored_by_the_worst_part() {
     let m = built_in();
     for redundant in [0, 1] {
-        let request = Conditions {
-            max_redundant: redundant,
-            ..Conditions::default()
-        };
+        let request = but(|c: &mut Conditions| c.max_redundant = redundant);
         let s = Search::new(exact_field(&m, 0).unwrap(), &m, request).unwrap();
         let e = Evaluator::new(&s, ClearanceSum::Worst).unwrap();
         assert_eq!((e.cases.list.len(), e.cases.free), (5, 0));

@@ -1,9 +1,9 @@
 //! `ozols analyze --certificate` and `ozols verify`.
 
-use crate::common::{has, out, ozols};
+use crate::common::{has, out, run};
 
 fn code_and_words(args: &[&str]) -> (Option<i32>, String, String) {
-    let o = ozols(args).output().unwrap();
+    let o = run(args);
     let text = |b: &[u8]| String::from_utf8(b.to_vec()).unwrap();
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }

@@ -244,7 +244,7 @@ fn nearly_all_built_ins_are_proven() {
         .into_iter()
         .filter(|name| !judged(&built_in(name)).1.is_proven());
     assert_eq!(
-        followed.sorted().collect::<Vec<_>>(),
+        followed.sorted().collect_vec(),
         [
             "delassus-parallelogram",
             "double-banana",

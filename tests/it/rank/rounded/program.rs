@@ -244,10 +244,7 @@ fn check_says_what_is_nearly_special() {
     has(&stderr, "LF and LR are 0.00");
     has(&stderr, "from coaxial");
     for name in ["four-bar", "bennett", "delta", "gripper-10"] {
-        assert!(
-            text(&run(&["check", name]).stdout).contains(": valid\n"),
-            "{name}"
-        );
+        has(&text(&run(&["check", name]).stdout), ": valid\n");
     }
 }
 

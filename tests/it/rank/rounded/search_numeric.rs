@@ -221,7 +221,7 @@ const FINE: Digits = Digits {
 
 #[test]
 fn every_condition_means_the_same_by_singular_values() {
-    let names = |all: &str| all.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let names = |all: &str| all.split(',').map(str::to_owned).collect_vec();
     // Of the twelve joints seven may change: 128 variants.
     let forbid = |joint: &str| JointOptions {
         joint: joint.to_owned(),

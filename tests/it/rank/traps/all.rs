@@ -1,5 +1,6 @@
 //! Mechanisms whose finite mobility is hard to tell, each with what it is in truth and where that comes from.
 
+use crate::common::but;
 use std::fmt::Write;
 
 /// A trap.
@@ -190,10 +191,7 @@ fn taut(s: &mut Sketch, bars: usize, at: f64, prefix: &str) {
 }
 
 fn with(planar: bool, build: impl FnOnce(&mut Sketch)) -> Sketch {
-    let mut s = Sketch {
-        planar,
-        ..Sketch::default()
-    };
+    let mut s = but(|s: &mut Sketch| s.planar = planar);
     s.link("0");
     build(&mut s);
     s

@@ -5,7 +5,7 @@ use super::make::{
     packed, part, property,
 };
 use super::{figures, read};
-use crate::common::{Json, has};
+use crate::common::{Json, but, has};
 use crate::robots::fix::run;
 use ozols::robots::Options;
 use serde_json::{Value, json};
@@ -66,10 +66,7 @@ fn what_is_open_is_told_in_degrees() {
         assert!((f["misfit"]["degrees"].real() - 1.2).abs() < 1e-9);
     }
     // No motion of planar hinges closes it.
-    let options = Options {
-        assemble: true,
-        ..Options::default()
-    };
+    let options = but(|o: &mut Options| o.assemble = true);
     let e = ozols::robots::import("x.FCStd", &fcstd(&bar), &crate::robots::none, &options);
     assert!(
         e.unwrap_err()
@@ -91,10 +88,7 @@ fn assemble_closes_what_can_be_closed() {
         "{:?}",
         i.report.approximated
     );
-    let options = Options {
-        assemble: true,
-        ..Options::default()
-    };
+    let options = but(|o: &mut Options| o.assemble = true);
     let i = read("x.FCStd", &bytes, &options);
     assert_eq!(figures(&i), (1, 3));
     let moved = i.report.moved.join("; ");

@@ -5,7 +5,7 @@ use super::make::{
     joint_type, label, number, packed, part, property, reference,
 };
 use super::{figures, read, refused};
-use crate::common::has;
+use crate::common::{but, has};
 use crate::robots::fix::run;
 use ozols::robots::{Options, import};
 
@@ -179,15 +179,9 @@ fn several_assemblies_and_parts_that_float() {
     let told = i.report.text("x");
     has(&told, "another assembly of the document");
     has(&told, "2 part that nothing ties to the ground (Nut, Bolt)");
-    let options = Options {
-        assembly: Some("Other".to_owned()),
-        ..Options::default()
-    };
+    let options = but(|o: &mut Options| o.assembly = Some("Other".to_owned()));
     assert_eq!(figures(&read("x.FCStd", &bytes, &options)), (1, 0));
-    let options = Options {
-        assembly: Some("Third".to_owned()),
-        ..Options::default()
-    };
+    let options = but(|o: &mut Options| o.assembly = Some("Third".to_owned()));
     let e = import("x.FCStd", &bytes, &crate::robots::none, &options).unwrap_err();
     assert!(
         e.to_string().contains("assemblies: Other") || e.to_string().contains("Assembly"),

@@ -115,10 +115,7 @@ fn joints_without_a_partner_and_skew_axes_say_which_plane_it_is() {
             }
         }
         let m = mechanism_from_str("on-the-plane.toml", &text).unwrap();
-        let conditions = Conditions {
-            symmetry: Symmetry::SymmetricOnly,
-            ..Conditions::default()
-        };
+        let conditions = but(|c: &mut Conditions| c.symmetry = Symmetry::SymmetricOnly);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions);
         assert!(search.is_ok(), "{axis:?}: {:?}", search.err());
     }

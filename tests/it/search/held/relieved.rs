@@ -214,10 +214,7 @@ fn pads_stay_on_their_jaws_when_the_part_is_gone() {
     use ozols::search::question::conditions::{Conditions, InState};
     let m = built_in("tongs");
     let state = StateId::new(1);
-    let conditions = Conditions {
-        state: Some(InState::holding(state)),
-        ..Conditions::default()
-    };
+    let conditions = but(|c: &mut Conditions| c.state = Some(InState::holding(state)));
     let s = Search::new(exact_field(&m, 0).unwrap(), &m, conditions).unwrap();
     let diagrams = s.build(&|| false, &mut |_| {});
     let mut padded = 0;

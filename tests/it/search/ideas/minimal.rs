@@ -78,11 +78,7 @@ fn minimal_variants_of_built_in_mechanisms() {
                 joint.options.retain(|o| offered(&o.name));
             }
         }
-        let conditions = Conditions {
-            max_redundant: most,
-            max_mobility: w,
-            ..Conditions::default()
-        };
+        let conditions = but(|c: &mut Conditions| (c.max_redundant, c.max_mobility) = (most, w));
         let (counted, seen) = both(&m, conditions);
         assert_eq!(counted, Some(seen.into()), "{name}");
     }
