@@ -264,8 +264,8 @@ pub(crate) fn run_on(
 /// Returns the rows of a table: one a line, bars between their cells, and `\n` for the end of a line within a cell.
 pub(crate) fn cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
     let row = |line: &str| {
-        let line: &str = line.replace("\\n", "\n").leak();
-        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let cell = |c: &str| -> &str { c.trim().replace("\\n", "\n").leak() };
+        let cells: Vec<&str> = line.split('|').map(cell).collect();
         cells.try_into().unwrap_or_else(|c| panic!("{c:?}"))
     };
     table
