@@ -275,6 +275,18 @@ pub(crate) fn cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
         .collect()
 }
 
+/// Asserts that each command line of a table is refused with exit code 2 and these words, `&` between several of them.
+pub(crate) fn refuses(table: &str) {
+    for [line, said] in cases::<2>(table) {
+        let o = run(line);
+        let told = text(&o.stderr);
+        assert_eq!(o.status.code(), Some(2), "{line}: {told}");
+        for part in said.split(" & ") {
+            assert!(told.contains(part), "{line}: no {part:?} in {told}");
+        }
+    }
+}
+
 /// Returns a file with this text, by its path, and the folder that it is gone with.
 pub(crate) fn written(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'static str) {
     let folder = tempfile::tempdir().unwrap();

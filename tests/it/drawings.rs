@@ -284,8 +284,7 @@ fn command_line() {
     let svg = out("draw gripper-10 --kind kinematic --state clamped");
     assert!(svg.contains("Kinematic scheme seen along z, state clamped"));
     // the same variant as in the list of `ozols search`
-    let list = out(&["search", "gripper-10", "--top", "2", "--format", "json"]);
-    let list: serde_json::Value = serde_json::from_str(&list).unwrap();
+    let list = json(&["search", "gripper-10", "--top", "2", "--format", "json"]);
     let svg = out(&["draw", "gripper-10", "--variant", "2"]);
     assert!(svg.contains("gripper-10, variant 2"));
     let changes = list["variants"][1]["changes"].list();
@@ -299,44 +298,13 @@ fn command_line() {
         assert!(says, "{words}{to}");
     }
     // the clamped state with its pad, and a list in the order of the file's ranking
-    for (more, search) in [
-        (
-            &[
-                "draw",
-                "gripper-10",
-                "--state",
-                "clamped",
-                "--max-external",
-                "2",
-            ][..],
-            &["search", "gripper-10", "--max-external", "2"][..],
-        ),
-        (
-            &["draw", "gripper-10-loaded", "--pool", "20"],
-            &["search", "gripper-10-loaded", "--pool", "20"],
-        ),
-        (
-            &[
-                "draw",
-                "gripper-10",
-                "--options",
-                "revolute,spherical",
-                "--max-redundant",
-                "2",
-            ],
-            &[
-                "search",
-                "gripper-10",
-                "--options",
-                "revolute,spherical",
-                "--max-redundant",
-                "2",
-            ],
-        ),
+    for asked in [
+        "gripper-10 --state clamped --max-external 2",
+        "gripper-10-loaded --pool 20",
+        "gripper-10 --options revolute,spherical --max-redundant 2",
     ] {
-        let list = out(&[search, &["--top", "3", "--format", "json"]].concat());
-        let list: serde_json::Value = serde_json::from_str(&list).unwrap();
-        let svg = out(&[more, &["--variant", "3"]].concat());
+        let list = json(&format!("search {asked} --top 3 --format json"));
+        let svg = out(&format!("draw {asked} --variant 3"));
         let changes = list["variants"][2]["changes"].list();
         let said = texts(&svg);
         assert_eq!(
@@ -346,32 +314,20 @@ fn command_line() {
         for c in changes {
             let (joint, to) = (c["joint"].word(), c["to"].word());
             let says = |t: &str| t.starts_with(&format!("{joint}: ")) && t.ends_with(to);
-            assert!(said.iter().any(|(t, _)| says(t)), "{more:?} {joint} {to}");
+            assert!(said.iter().any(|(t, _)| says(t)), "{asked} {joint} {to}");
         }
-        if more.contains(&"clamped") {
+        if asked.contains("clamped") {
             assert!(
                 said.iter().any(|(t, _)| t == "link a-8 pad: added"),
                 "{said:?}"
             );
         }
     }
-    for (args, what) in [
-        (
-            vec!["draw", "gripper-10", "--state", "folded"],
-            "it has: free, clamped",
-        ),
-        (
-            vec!["draw", "gripper-10", "--variant", "0"],
-            "numbered from 1",
-        ),
-        (
-            vec!["draw", "slider-crank-determinate", "--variant", "99999999"],
-            "no variant",
-        ),
-    ] {
-        let done = run(&args);
-        assert_eq!(done.status.code(), Some(2), "{args:?}");
-        let said = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert!(said.contains(what), "{said}");
-    }
+    refuses(
+        "
+        draw gripper-10 --state folded | it has: free, clamped
+        draw gripper-10 --variant 0 | numbered from 1
+        draw slider-crank-determinate --variant 99999999 | no variant
+        ",
+    );
 }

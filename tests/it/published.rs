@@ -225,30 +225,3 @@ fn threads_do_not_matter() {
         );
     }
 }
-
-/// Orbits of the mirror symmetry: Burnside's lemma against a listing.
-#[test]
-fn one_of_each_mirror_pair_is_listed() {
-    let args = [
-        "search",
-        "gripper-10",
-        "--options",
-        "revolute,spherical",
-        "--max-redundant",
-        "1",
-    ];
-    let total = |more: &[&str]| -> u64 {
-        json(&[&args[..], more, &["--count"]].concat())["admissible"]
-            .word()
-            .parse()
-            .unwrap()
-    };
-    let (all, symmetric, orbits) = (
-        total(&[]),
-        total(&["--symmetric"]),
-        total(&["--one-per-orbit"]),
-    );
-    assert_eq!(orbits, (all + symmetric) / 2);
-    let listed = json(&[&args[..], &["--one-per-orbit", "--all"]].concat());
-    assert_eq!(listed["variants"].list().len() as u64, orbits);
-}

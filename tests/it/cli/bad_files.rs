@@ -171,15 +171,22 @@ fn error_numbers_beyond_all_bounds() {
 fn outputs_that_have_no_place_are_refused_by_their_names() {
     let folder = tempfile::tempdir().unwrap();
     let place = folder.path().to_str().unwrap();
-    let said = refused(
-        &["analyze", "four-bar", "-o", place],
-        &["it is a folder; name a file in it"],
-    );
-    assert!(!said.contains(".tmp/"), "{said}");
-    let nowhere = format!("{place}/none/x.txt");
-    let said = refused(
-        &["analyze", "four-bar", "-o", &nowhere],
-        &["cannot write", "there is no folder", "make it first"],
-    );
-    assert!(!said.contains("os error"), "{said}");
+    for command in ["analyze", "search", "check"] {
+        refused(&[command, place], &["is a folder; name a file in it"]);
+    }
+    for command in ["analyze", "search"] {
+        let whole = ["it is a folder; name a file in it"];
+        let said = refused(&[command, "four-bar", "-o", place], &whole);
+        assert!(!said.contains(".tmp/"), "{said}");
+        let nowhere = format!("{place}/none/x.txt");
+        let parts = [
+            "cannot write",
+            "none/x.txt",
+            "there is no folder",
+            "make it first",
+        ];
+        let said = refused(&[command, "four-bar", "-o", &nowhere], &parts);
+        assert!(!said.contains("os error"), "{said}");
+    }
+    assert_eq!(std::fs::read_dir(place).unwrap().count(), 0);
 }

@@ -303,8 +303,3 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
         .success();
     assert_eq!(temporary(), 1);
 }
-
-#[test]
-fn no_signal_no_such_code() {
-    assert_eq!(run(&["list"]).status.code(), Some(0));
-}

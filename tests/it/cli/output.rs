@@ -1,26 +1,11 @@
 //! Files written, standard input and output, closed pipes.
 
-use super::{four_bar, refused};
+use super::four_bar;
 use crate::common::*;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
 // Files written.
-
-#[test]
-fn output_into_a_missing_folder_leaves_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("none/x.json");
-    refused(
-        &["search", "four-bar", "-o", path.to_str().unwrap()],
-        &["cannot write", "none/x.json"],
-    );
-    refused(
-        &["analyze", "four-bar", "-o", path.to_str().unwrap()],
-        &["cannot write", "none/x.json"],
-    );
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-}
 
 #[test]
 fn output_file_is_whole() {

@@ -81,9 +81,3 @@ fn fingers_differ_by_no_more_than_they_must() {
     });
     assert_eq!(alone.count(), 1, "{first:?}");
 }
-
-#[test]
-fn the_text_says_how_many_are_minimal_and_lists_no_idle_additions() {
-    let text = out(&["search", "slider-crank-spatial", "--top", "100"]);
-    has(&text, "11 minimal; the other 1 only add idle motion");
-}

@@ -79,20 +79,3 @@ fn loads_of_the_file_are_taken_where_it_has_some() {
     let w = why(&["gripper-10-loaded", "--top", "1", "--pool", "50"], 0);
     assert_eq!(w["under"], "the loads of the file");
 }
-
-#[test]
-fn the_text_says_why_of_the_first_three_ideas() {
-    let text = out(&["search", "gripper-10"]);
-    for k in 1..=3 {
-        has(&text, &format!("\n  idea {k} lets parts tilt both ways: "));
-    }
-    assert!(!text.contains("idea 4 lets"));
-    has(&text, "hardware: rod end (spherical plain bearing) at ");
-    has(
-        &text,
-        "removes: 2 of 2 redundant constraints of loop 0-1-2-3, 3 of 3 of loop ",
-    );
-    has(&text, "unchanged: 0-1, 3-0, 2-4, 4-5, ");
-    // What changes nothing lets nothing go.
-    assert!(!out(&["search", "gripper-10-planar"]).contains(" lets parts"));
-}
