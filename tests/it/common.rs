@@ -275,6 +275,37 @@ pub(crate) fn cases<const N: usize>(table: &str) -> Vec<[&'static str; N]> {
         .collect()
 }
 
+/// Returns the file of a mechanism: what stands before its links; these, the first the frame, `*` behind outputs and `!` behind an
+/// object; and a joint a line: name, links, type, point, axis if it has one, and what else stands there.
+pub(crate) fn file_of(head: &str, links: &str, joints: &str) -> String {
+    let mut out = format!("{head}\n");
+    for (i, link) in links.split_whitespace().enumerate() {
+        let role = match (i, link.chars().last()) {
+            (0, _) => "role = \"frame\"\n",
+            (_, Some('*')) => "role = \"output\"\n",
+            (_, Some('!')) => "role = \"object\"\n",
+            _ => "",
+        };
+        let id = link.trim_end_matches(['*', '!']);
+        out += &format!("[[link]]\nid = \"{id}\"\n{role}");
+    }
+    for line in joints.lines().filter(|l| !l.trim().is_empty()) {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let (a, b) = cells[1].split_once(' ').unwrap();
+        let [id, kind, point] = [0, 2, 3].map(|c| cells[c]);
+        out += &format!("[[joint]]\nid = \"{id}\"\nlinks = [\"{a}\", \"{b}\"]\n");
+        out += &format!("type = \"{kind}\"\npoint = [{point}]\n");
+        if let Some(axis) = cells.get(4).filter(|a| !a.is_empty()) {
+            out += &format!("axis = [{axis}]\n");
+        }
+        let more = cells
+            .get(5)
+            .map_or(String::new(), |m| m.replace("\\n", "\n"));
+        out += &format!("{more}\n");
+    }
+    out
+}
+
 /// Asserts that each command line of a table is refused with exit code 2 and these words, `&` between several of them.
 pub(crate) fn refuses(table: &str) {
     for [line, said] in cases::<2>(table) {

@@ -59,35 +59,17 @@ fn verdicts_come_first_and_primes_last() {
 }
 
 /// A slide across a frame, with an output that does not move with it.
-const SLIDE: &str = r#"
-name = "slide"
-length_unit = "mm"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-role = "output"
-[[link]]
-id = "2"
-[[joint]]
-id = "hinge"
-links = ["0", "1"]
-type = "revolute"
-point = [0, 0, 0]
-axis = [0, 0, 1]
-[[joint]]
-id = "slide"
-links = ["0", "2"]
-type = "prismatic"
-point = [1, 0, 0]
-axis = AXIS
-"#;
+fn slide(axis: &str) -> String {
+    let joints = format!(
+        "hinge | 0 1 | revolute | 0, 0, 0 | 0, 0, 1\nslide | 0 2 | prismatic | 1, 0, 0 | {axis}"
+    );
+    file_of("name = \"slide\"\nlength_unit = \"mm\"", "0 1* 2", &joints)
+}
 
 #[test]
 fn idle_motions_name_their_direction() {
     let idle = |axis: &str| {
-        let (_, said, err) = run_on("analyze", "slide.toml", &SLIDE.replace("AXIS", axis), &[]);
+        let (_, said, err) = run_on("analyze", "slide.toml", &slide(axis), &[]);
         let found = said
             .lines()
             .find_map(|l| l.trim().strip_prefix("idle: ").map(str::to_owned));

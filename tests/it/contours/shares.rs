@@ -151,23 +151,18 @@ fn the_range_over_bases_is_that_of_every_basis() {
 /// well as the coupling.
 #[test]
 fn a_coupling_can_take_a_constraint_over_from_a_contour() {
-    let links = "[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[link]]\nid = \"2\"\nrole = \"output\"\n[[link]]\nid = \"3\"\n";
-    let hinge = |id: &str, links: &str, point: &str| {
-        format!(
-            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"revolute\"\npoint = {point}\naxis = [0, 0, 1]\n"
-        )
-    };
-    let joints = [
-        hinge("a", r#"["0", "1"]"#, "[0, 0, 0]"),
-        hinge("b", r#"["1", "2"]"#, "[1, 3, 0]"),
-        hinge("c", r#"["2", "3"]"#, "[6, 3, 0]"),
-        hinge("d", r#"["0", "3"]"#, "[5, 0, 0]"),
-    ];
+    let cranks = file_of(
+        "name = \"cranks\"\nmode = \"planar\"",
+        "0 1 2* 3",
+        "
+        a | 0 1 | revolute | 0, 0, 0 | 0, 0, 1
+        b | 1 2 | revolute | 1, 3, 0 | 0, 0, 1
+        c | 2 3 | revolute | 6, 3, 0 | 0, 0, 1
+        d | 0 3 | revolute | 5, 0, 0 | 0, 0, 1
+        ",
+    );
     let coupling = "[[coupling]]\njoints = [\"a\", \"d\"]\nratio = 1\n";
-    let text = |more: &str| {
-        let joints = joints.concat();
-        format!("name = \"cranks\"\nmode = \"planar\"\n{links}{joints}{more}")
-    };
+    let text = |more: &str| format!("{cranks}{more}");
     for (more, greatest) in [("", 0), (coupling, 1)] {
         let m = ozols::from_toml(&text(more)).unwrap();
         let exact = field_of(&m, StateId::FREE, 0).unwrap();

@@ -67,25 +67,16 @@ fn no_bound_on_the_order_is_taken_where_joints_are_coupled() {
             }
         )
     };
-    let mut text = "name = \"parallelogram\"\n".to_owned();
-    for (id, role) in [
-        ("0", "role = \"frame\""),
-        ("1", ""),
-        ("2", "role = \"output\""),
-        ("3", ""),
-    ] {
-        text += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
-    }
-    for (id, links, point) in [
-        ("a", "[\"0\", \"1\"]", "[0, 0, 0]"),
-        ("b", "[\"1\", \"2\"]", "[10, 30, 0]"),
-        ("c", "[\"3\", \"2\"]", "[110, 30, 0]"),
-        ("d", "[\"0\", \"3\"]", "[100, 0, 0]"),
-    ] {
-        text += &format!(
-            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"revolute\"\npoint = {point}\naxis = [0, 0, 1]\n"
-        );
-    }
+    let text = file_of(
+        "name = \"parallelogram\"",
+        "0 1 2* 3",
+        "
+        a | 0 1 | revolute | 0, 0, 0 | 0, 0, 1
+        b | 1 2 | revolute | 10, 30, 0 | 0, 0, 1
+        c | 3 2 | revolute | 110, 30, 0 | 0, 0, 1
+        d | 0 3 | revolute | 100, 0, 0 | 0, 0, 1
+        ",
+    );
     let geared = exact(&mechanism(&(text.clone() + &coupled("a", "d", "1"))));
     assert_eq!(
         (geared.mobility, geared.redundant, geared.finite.mobility),

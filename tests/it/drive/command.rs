@@ -212,23 +212,9 @@ fn bad_tables_are_refused_where_they_stand() {
 /// Inertia of a link that turns about an axis aside of its mass centre, with a payload.
 #[test]
 fn inertia_comes_from_a_link() {
-    let mechanism = r#"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-role = "output"
-mass = 3
-centre = [100, 0, 40]
-inertia = [1, 2, 0.04]
-[[joint]]
-id = "0-1"
-links = ["0", "1"]
-type = "revolute"
-point = [0, 0, 0]
-axis = [0, 0, 5]
-"#;
+    let mechanism = file_of("", "0 1*", "0-1 | 0 1 | revolute | 0, 0, 0 | 0, 0, 5");
+    let heavy = "role = \"output\"\nmass = 3\ncentre = [100, 0, 40]\ninertia = [1, 2, 0.04]";
+    let mechanism = &changed(&mechanism, "role = \"output\"", heavy);
     let with_link = |link: &str| {
         let table = small_with(
             "inertia = 0.23",

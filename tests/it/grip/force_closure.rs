@@ -17,26 +17,8 @@ pub(crate) struct At {
 
 /// A part that touches nothing but faces of the frame.
 pub(crate) fn vice(contacts: &[At]) -> String {
-    let mut out = r#"
-name = "vice"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "handle"
-role = "output"
-[[link]]
-id = "part"
-role = "object"
-[[joint]]
-id = "hinge"
-links = ["0", "handle"]
-type = "revolute"
-point = [0, 0, 9]
-axis = [0, 0, 1]
-drive = true
-"#
-    .to_owned();
+    let hinge = "hinge | 0 handle | revolute | 0, 0, 9 | 0, 0, 1 | drive = true";
+    let mut out = file_of("name = \"vice\"", "0 handle* part!", hinge);
     for (i, c) in contacts.iter().enumerate() {
         let At {
             kind,

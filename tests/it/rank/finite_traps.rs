@@ -115,28 +115,18 @@ fn idle_spins_stay_beside_what_else_moves() {
 /// A triangle of bars stands with one more across it, and a pendulum hangs beside it.
 #[test]
 fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
-    let mut text = String::from("name = \"beside\"\n");
-    for (link, role) in [
-        ("f", "role = \"frame\""),
-        ("a", ""),
-        ("b", "role = \"output\""),
-        ("c", ""),
-        ("p", "role = \"output\""),
-    ] {
-        text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
-    }
-    for (id, ends, point) in [
-        ("fa", ["f", "a"], [0, 0, 0]),
-        ("ab", ["a", "b"], [1, 2, 0]),
-        ("bf", ["b", "f"], [3, 0, 0]),
-        ("ac", ["a", "c"], [1, 1, 0]),
-        ("cb", ["c", "b"], [2, -1, 0]),
-        ("hang", ["f", "p"], [7, 0, 0]),
-    ] {
-        text += &format!(
-            "[[joint]]\nid = \"{id}\"\nlinks = {ends:?}\ntype = \"revolute\"\npoint = {point:?}\naxis = [0, 0, 1]\n"
-        );
-    }
+    let text = file_of(
+        "name = \"beside\"",
+        "f a b* c p*",
+        "
+        fa | f a | revolute | 0, 0, 0 | 0, 0, 1
+        ab | a b | revolute | 1, 2, 0 | 0, 0, 1
+        bf | b f | revolute | 3, 0, 0 | 0, 0, 1
+        ac | a c | revolute | 1, 1, 0 | 0, 0, 1
+        cb | c b | revolute | 2, -1, 0 | 0, 0, 1
+        hang | f p | revolute | 7, 0, 0 | 0, 0, 1
+        ",
+    );
     let (code, said, _) = run_on("analyze", "beside.toml", &text, &[]);
     assert_eq!(code, Some(0));
     has(&said, "finite mobility 1: joints in no contour");

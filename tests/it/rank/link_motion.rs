@@ -65,26 +65,9 @@ fn dimensions_are_those_of_the_exact_kernel() {
 /// A screw's nut climbs by the lead of the thread in a turn, and the connectivity of two links is asked in either order.
 #[test]
 fn screws_and_connectivity() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("nut.toml");
-    let text = r#"
-name = "nut"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "nut"
-role = "output"
-[[joint]]
-id = "thread"
-links = ["0", "nut"]
-type = "helical"
-lead = 5
-point = [1, 2, 3]
-axis = [0, 0, 1]
-"#;
-    std::fs::write(&path, text).unwrap();
-    let state = free(&[path.to_str().unwrap()]);
+    let thread = "thread | 0 nut | helical | 1, 2, 3 | 0, 0, 1 | lead = 5";
+    let (_folder, path) = written("nut.toml", file_of("name = \"nut\"", "0 nut*", thread));
+    let state = free(&[path]);
     let found = state["motions"][0]["text"].word();
     assert!(
         found.starts_with("screw motion along z through (1, 2, "),

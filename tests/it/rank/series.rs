@@ -44,19 +44,18 @@ fn what_moves_in_fact_is_stopped_at_no_order() {
 /// together at the third, to which x² and y² have all powers among their multiples, xy not being one at the second.
 #[test]
 fn two_toggles_are_stopped_at_the_third_order() {
-    let mut text =
-        "name = \"toggles\"\nmode = \"planar\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n"
-            .to_owned();
-    for (n, (a, b)) in [("a", "b"), ("c", "d")].into_iter().enumerate() {
-        text += &format!("[[link]]\nid = \"{a}\"\n[[link]]\nid = \"{b}\"\nrole = \"output\"\n");
-        for (i, (from, to)) in [("0", a), (a, b), (b, "0")].into_iter().enumerate() {
-            text += &format!(
-                "[[joint]]\nid = \"{from}-{to}\"\nlinks = [\"{from}\", \"{to}\"]\ntype = \"revolute\"\npoint = [{}, {}, 0]\naxis = [0, 0, 1]\n",
-                10 * i + 3 * i * n,
-                50 * n
-            );
-        }
-    }
+    let text = file_of(
+        "name = \"toggles\"\nmode = \"planar\"",
+        "0 a b* c d*",
+        "
+        0-a | 0 a | revolute | 0, 0, 0 | 0, 0, 1
+        a-b | a b | revolute | 10, 0, 0 | 0, 0, 1
+        b-0 | b 0 | revolute | 20, 0, 0 | 0, 0, 1
+        0-c | 0 c | revolute | 0, 50, 0 | 0, 0, 1
+        c-d | c d | revolute | 13, 50, 0 | 0, 0, 1
+        d-0 | d 0 | revolute | 26, 50, 0 | 0, 0, 1
+        ",
+    );
     let m = mechanism_from_str("toggles.toml", &text).unwrap();
     let series = series(&m, 4).unwrap();
     assert_eq!([1, 2].map(|k| series.isolated(k)), [Some(2), Some(3)]);

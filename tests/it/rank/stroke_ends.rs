@@ -1,30 +1,22 @@
 //! Singular poses near the ends of a stroke.
 
-use crate::common::{Json, json, written};
+use crate::common::*;
+use ozols::motion::pose::Pose;
+use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
 
 /// A singular pose is found wherever the stroke ends: the parallelogram is flat at 90° to either side of the pose of the file.
 #[test]
 fn singular_poses_near_an_end_are_found() {
-    let mut text = "name = \"parallelogram\"\n".to_owned();
-    for (id, role) in [
-        ("0", "role = \"frame\""),
-        ("1", ""),
-        ("2", "role = \"output\""),
-        ("3", ""),
-    ] {
-        text += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
-    }
-    for (id, links, point) in [
-        ("0-1", "[\"0\", \"1\"]", "[0, 0, 0]"),
-        ("1-2", "[\"1\", \"2\"]", "[0, 30, 0]"),
-        ("2-3", "[\"2\", \"3\"]", "[100, 30, 0]"),
-        ("3-0", "[\"3\", \"0\"]", "[100, 0, 0]"),
-    ] {
-        text += &format!(
-            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"revolute\"\npoint = {point}\naxis = [0, 0, 1]\ndrive = {}\n",
-            id == "0-1"
-        );
-    }
+    let text = file_of(
+        "name = \"parallelogram\"",
+        "0 1 2* 3",
+        "
+        0-1 | 0 1 | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+        1-2 | 1 2 | revolute | 0, 30, 0 | 0, 0, 1
+        2-3 | 2 3 | revolute | 100, 30, 0 | 0, 0, 1
+        3-0 | 3 0 | revolute | 100, 0, 0 | 0, 0, 1
+        ",
+    );
     let (_folder, path) = written("parallelogram.toml", text);
     for (stroke, times) in [
         ("1:1.6:3", 1),
@@ -44,20 +36,22 @@ fn singular_poses_near_an_end_are_found() {
 }
 
 /// A slider-crank whose slider drives, in millimetres: crank 30 upright, rod 96. The slider goes from √(96² - 30²) = √8316 out to 126.
-fn driven_slider() -> ozols::model::mechanism::Mechanism {
-    let text = "name = \"pump\"\nlength_unit = \"mm\"\nmode = \"planar\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\" }, { id = \"3\", role = \"output\" }]\n\
-        [[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n\
-        [[joint]]\nid = \"b\"\nlinks = [\"1\", \"2\"]\ntype = \"revolute\"\npoint = [0, 30, 0]\naxis = [0, 0, 1]\n\
-        [[joint]]\nid = \"c\"\nlinks = [\"2\", \"3\"]\ntype = \"revolute\"\npoint = [\"sqrt(8316)\", 0, 0]\naxis = [0, 0, 1]\n\
-        [[joint]]\nid = \"d\"\nlinks = [\"0\", \"3\"]\ntype = \"prismatic\"\npoint = [\"sqrt(8316)\", 0, 0]\naxis = [1, 0, 0]\ndrive = true\n";
-    ozols::file::text::mechanism_from_str("pump.toml", text).unwrap()
+fn driven_slider() -> Mechanism {
+    let text = file_of(
+        "name = \"pump\"\nlength_unit = \"mm\"\nmode = \"planar\"",
+        "0 1 2 3*",
+        "
+        a | 0 1 | revolute | 0, 0, 0 | 0, 0, 1
+        b | 1 2 | revolute | 0, 30, 0 | 0, 0, 1
+        c | 2 3 | revolute | \"sqrt(8316)\", 0, 0 | 0, 0, 1
+        d | 0 3 | prismatic | \"sqrt(8316)\", 0, 0 | 1, 0, 0 | drive = true
+        ",
+    );
+    mechanism_from_str("pump.toml", &text).unwrap()
 }
 
 #[test]
 fn slides_are_followed_in_the_files_unit_and_end_where_they_must() {
-    use ozols::model::mechanism::StateId;
-    use ozols::motion::pose::Pose;
-    use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
     let m = driven_slider();
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let joint = m.joint("d").unwrap();
@@ -103,35 +97,17 @@ fn angles_over_a_slide_are_refused() {
 /// square to the slide, in that pose alone.
 #[test]
 fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
-    use ozols::model::mechanism::StateId;
-    use ozols::motion::pose::Pose;
-    use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
-    let [hinge, slide] = ["revolute", "prismatic"];
-    let mut text = "name = \"fold\"\nlength_unit = \"mm\"\nmode = \"planar\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\" }, { id = \"3\", role = \"output\" }]\n".to_owned();
-    for (id, links, kind, point, axis) in [
-        ("a", "[\"0\", \"1\"]", hinge, "0, 0", "0, 0, 1"),
-        ("b", "[\"1\", \"2\"]", hinge, "-24, 18", "0, 0, 1"),
-        (
-            "c",
-            "[\"2\", \"3\"]",
-            hinge,
-            "66, \"18-sqrt(1116)\"",
-            "0, 0, 1",
-        ),
-        (
-            "d",
-            "[\"0\", \"3\"]",
-            slide,
-            "66, \"18-sqrt(1116)\"",
-            "0, 1, 0",
-        ),
-    ] {
-        let drive = id == "d";
-        text += &format!(
-            "[[joint]]\nid = \"{id}\"\nlinks = {links}\ntype = \"{kind}\"\npoint = [{point}, 0]\naxis = [{axis}]\ndrive = {drive}\n"
-        );
-    }
-    let m = ozols::file::text::mechanism_from_str("fold.toml", &text).unwrap();
+    let text = file_of(
+        "name = \"fold\"\nlength_unit = \"mm\"\nmode = \"planar\"",
+        "0 1 2 3*",
+        "
+        a | 0 1 | revolute | 0, 0, 0 | 0, 0, 1
+        b | 1 2 | revolute | -24, 18, 0 | 0, 0, 1
+        c | 2 3 | revolute | 66, \"18-sqrt(1116)\", 0 | 0, 0, 1
+        d | 0 3 | prismatic | 66, \"18-sqrt(1116)\", 0 | 0, 1, 0 | drive = true
+        ",
+    );
+    let m = mechanism_from_str("fold.toml", &text).unwrap();
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let joint = m.joint("d").unwrap();
     let request = StrokeRequest {
@@ -158,10 +134,7 @@ fn a_pose_that_falls_in_rank_is_told_in_the_files_unit() {
 /// Two drives decide all that a five-bar's output does; one leaves a motion.
 #[test]
 fn drives_that_are_held_decide_too() {
-    use ozols::model::mechanism::StateId;
-    use ozols::motion::pose::Pose;
-    use ozols::rank::stroke::analysis::{StrokeRequest, stroke};
-    let m = crate::common::built_in("five-bar");
+    let m = built_in("five-bar");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let drives: Vec<usize> = (0..pose.columns.len())
         .filter(|&c| m.joints[pose.columns[c].joint].drive)

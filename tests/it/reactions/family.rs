@@ -31,33 +31,10 @@ fn a_misaligned_joint_strains_as_by_hand() {
 }
 
 fn strained(l: f64) {
-    let text = r#"
-name = "bar"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-role = "output"
-[[joint]]
-id = "a"
-links = ["0", "1"]
-type = "fixed"
-point = [0, 0, 0]
-[[joint]]
-id = "b"
-links = ["0", "1"]
-type = "fixed"
-point = [LENGTH, 0, 0]
-[workload.stiffness.default]
-linear = 1000
-angular = 300
-[[workload.misalignment]]
-joint = "b"
-angle = 0.01
-axis = "z"
-"#;
-    let text = text.replace("LENGTH", &l.to_string());
+    let ends = format!("a | 0 1 | fixed | 0, 0, 0\nb | 0 1 | fixed | {l}, 0, 0");
+    let text = file_of("name = \"bar\"", "0 1*", &ends)
+        + "[workload.stiffness.default]\nlinear = 1000\nangular = 300\n\
+           [[workload.misalignment]]\njoint = \"b\"\nangle = 0.01\naxis = \"z\"\n";
     let m = mechanism_from_str("bar.toml", &text).unwrap();
     let s = solve(&m);
     assert_eq!(s.self_stresses.len(), 6);

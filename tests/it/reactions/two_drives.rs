@@ -7,36 +7,21 @@ use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::Geometry;
 
 /// A crane: it turns, its boom tilts, and a hook runs along the boom, in millimetres.
-const CRANE: &str = r#"
-name = "crane"
-length_unit = "mm"
-link = [{ id = "ground", role = "frame" }, { id = "tower" }, { id = "boom" }, { id = "hook", role = "output" }]
-[[joint]]
-id = "turn"
-links = ["ground", "tower"]
-type = "revolute"
-point = [0, 0, 0]
-axis = [0, 0, 1]
-drive = true
-[[joint]]
-id = "tilt"
-links = ["tower", "boom"]
-type = "revolute"
-point = [0, 0, 2000]
-axis = [0, 1, 0]
-drive = true
-[[joint]]
-id = "run"
-links = ["boom", "hook"]
-type = "prismatic"
-point = [3000, 0, 2000]
-axis = [1, 0, 0]
-drive = true
-"#;
+fn crane() -> String {
+    file_of(
+        "name = \"crane\"\nlength_unit = \"mm\"",
+        "ground tower boom hook*",
+        "
+        turn | ground tower | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+        tilt | tower boom | revolute | 0, 0, 2000 | 0, 1, 0 | drive = true
+        run | boom hook | prismatic | 3000, 0, 2000 | 1, 0, 0 | drive = true
+        ",
+    )
+}
 
 #[test]
 fn drives_move_at_the_ratio_of_their_speeds() {
-    let mut m = mechanism_from_str("crane.toml", CRANE).unwrap();
+    let mut m = mechanism_from_str("crane.toml", &crane()).unwrap();
     m.loads.drive_speeds = vec![0.5, -0.25, 100.0];
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();

@@ -23,51 +23,23 @@ fn contact<'a>(v: &'a Value, name: &str) -> &'a Value {
 
 /// A part of 1 kg between two faces of the frame, along y above and below it; gravity as asked for.
 fn between(gravity: &str) -> String {
-    format!(
-        r#"
-name = "vice"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "handle"
-role = "output"
-[[link]]
-id = "part"
-role = "object"
-mass = 1
-centre = [0, 0, 0]
-[[joint]]
-id = "hinge"
-links = ["0", "handle"]
-type = "revolute"
-point = [0, 0.3, 0]
-axis = [0, 0, 1]
-drive = true
-[[joint]]
-id = "above"
-links = ["0", "part"]
-type = "fixed"
-point = [0, 0.1, 0]
-axis = [0, 1, 0]
-state = "clamped"
-[[joint]]
-id = "below"
-links = ["part", "0"]
-type = "fixed"
-point = [0, -0.1, 0]
-axis = [0, 1, 0]
-state = "clamped"
-[workload]
-gravity = {gravity}
-[[workload.contact]]
-joint = "above"
-friction = 0.2
-[[workload.contact]]
-joint = "below"
-friction = 0.2
-"#
-    )
+    let text = file_of(
+        "name = \"vice\"",
+        "0 handle* part!",
+        "
+        hinge | 0 handle | revolute | 0, 0.3, 0 | 0, 0, 1 | drive = true
+        above | 0 part | fixed | 0, 0.1, 0 | 0, 1, 0 | state = \"clamped\"
+        below | part 0 | fixed | 0, -0.1, 0 | 0, 1, 0 | state = \"clamped\"
+        ",
+    );
+    let heavy = "role = \"object\"\nmass = 1\ncentre = [0, 0, 0]";
+    let contact = |id: &str| format!("[[workload.contact]]\njoint = \"{id}\"\nfriction = 0.2\n");
+    changed(&text, "role = \"object\"", heavy)
+        + &format!(
+            "[workload]\ngravity = {gravity}\n{}{}",
+            contact("above"),
+            contact("below")
+        )
 }
 
 /// By hand: as joints two faces share the weight, the upper one by pulling; as faces the lower one bears it all.

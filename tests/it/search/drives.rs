@@ -61,37 +61,21 @@ fn counts_with_and_without_the_drives_are_those_of_the_trial() {
 }
 
 /// A table on a screw: a plain bush in place of the nut lets the motor spin alone.
-const JACK: &str = r#"
-name = "jack"
-length_unit = "mm"
-link = [{ id = "base", role = "frame" }, { id = "screw" }, { id = "table", role = "output" }]
-[[joint]]
-id = "motor"
-links = ["base", "screw"]
-type = "revolute"
-axis = [0, 0, 1]
-point = [0, 0, 0]
-drive = true
-[[joint]]
-id = "nut"
-links = ["screw", "table"]
-type = "helical"
-axis = [0, 0, 1]
-point = [0, 0, 40]
-lead = 4
-options = ["helical", "cylindrical"]
-unloading = [{ name = "floating nut", freedoms = ["rx", "ry", "tx", "ty"] }]
-[[joint]]
-id = "rail"
-links = ["table", "base"]
-type = "prismatic"
-axis = [0, 0, 1]
-point = [30, 0, 40]
-"#;
+fn jack() -> String {
+    file_of(
+        "name = \"jack\"\nlength_unit = \"mm\"",
+        "base screw table*",
+        r#"
+        motor | base screw | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+        nut | screw table | helical | 0, 0, 40 | 0, 0, 1 | lead = 4\noptions = ["helical", "cylindrical"]\nunloading = [{ name = "floating nut", freedoms = ["rx", "ry", "tx", "ty"] }]
+        rail | table base | prismatic | 30, 0, 40 | 0, 0, 1
+        "#,
+    )
+}
 
 #[test]
 fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing() {
-    let m = mechanism_from_str("jack.toml", JACK).unwrap();
+    let m = mechanism_from_str("jack.toml", &jack()).unwrap();
     assert_eq!(
         [Drives::Free, Drives::Kept].map(|d| admissible(&m, d)),
         [2, 1]
@@ -117,43 +101,22 @@ fn a_bush_in_place_of_a_lead_screw_is_no_redesign_and_costs_no_less_than_nothing
 
 /// A beam on a pivot and a seat that two motors push along parallel rails: as built they fight. With a slide in place of the seat there is
 /// one motion for both; with a pin in a slot each motor decides its own side.
-const GANTRY: &str = r#"
-name = "gantry"
-mode = "planar"
-link = [{ id = "base", role = "frame" }, { id = "left" }, { id = "right" }, { id = "beam", role = "output" }]
-[[joint]]
-id = "left-rail"
-links = ["base", "left"]
-type = "prismatic"
-axis = [0, 1, 0]
-point = [0, 0, 0]
-drive = true
-[[joint]]
-id = "right-rail"
-links = ["base", "right"]
-type = "prismatic"
-axis = [0, 1, 0]
-point = [2, 0, 0]
-drive = true
-[[joint]]
-id = "left-pin"
-links = ["left", "beam"]
-type = "revolute"
-axis = [0, 0, 1]
-point = [0, 0, 0]
-[[joint]]
-id = "right-seat"
-links = ["right", "beam"]
-type = "fixed"
-axis = [0, 0, 1]
-reference = [1, 0, 0]
-point = [2, 0, 0]
-options = ["fixed", "slotted", { type = "prismatic", axis = [1, 0, 0] }]
-"#;
+fn gantry() -> String {
+    file_of(
+        "name = \"gantry\"\nmode = \"planar\"",
+        "base left right beam*",
+        r#"
+        left-rail | base left | prismatic | 0, 0, 0 | 0, 1, 0 | drive = true
+        right-rail | base right | prismatic | 2, 0, 0 | 0, 1, 0 | drive = true
+        left-pin | left beam | revolute | 0, 0, 0 | 0, 0, 1
+        right-seat | right beam | fixed | 2, 0, 0 | 0, 0, 1 | reference = [1, 0, 0]\noptions = ["fixed", "slotted", { type = "prismatic", axis = [1, 0, 0] }]
+        "#,
+    )
+}
 
 #[test]
 fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
-    let m = mechanism_from_str("gantry.toml", GANTRY).unwrap();
+    let m = mechanism_from_str("gantry.toml", &gantry()).unwrap();
     // By hand: the slide keeps the one motion of the beam, the slot gives it a turn.
     for (drives, mobility) in [(Drives::Kept, 1), (Drives::Independent, 2)] {
         let search = search(&m, drives).unwrap();
@@ -175,34 +138,25 @@ fn independent_drives_are_as_many_as_the_motions_that_they_decide() {
 /// Where no variant has as many motions as drives, that is an answer and no error.
 #[test]
 fn nothing_found_with_independent_drives_is_an_answer() {
-    let (_folder, file) = written(
-        "gantry.toml",
-        GANTRY.replace("\"fixed\", \"slotted\", {", "\"fixed\", {"),
-    );
-    let words = ["search", file, "--drives", "independent"];
-    let o = crate::common::run(&words);
-    assert_eq!(o.status.code(), Some(1), "{o:?}");
-    let count = [&words[..], &["--count", "--format", "json", "-q"]].concat();
-    let o = crate::common::run(&count);
-    let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
-    assert_eq!(
-        (o.status.code(), crate::common::count(&found["admissible"])),
-        (Some(1), 0)
-    );
+    let text = changed(&gantry(), "\"fixed\", \"slotted\", {", "\"fixed\", {");
+    let more = ["--drives", "independent", "--format", "json", "-q"];
+    let (code, said, _) = run_on("search", "gantry.toml", &text, &more);
+    let found: Value = serde_json::from_str(&said).unwrap();
+    assert_eq!((code, count(&found["admissible"])), (Some(1), 0));
 }
 
 #[test]
 fn independent_drives_are_refused_where_they_cannot_be() {
-    let gantry = mechanism_from_str("gantry.toml", GANTRY).unwrap();
-    let mut none = gantry.clone();
+    let built = mechanism_from_str("gantry.toml", &gantry()).unwrap();
+    let mut none = built.clone();
     none.joints.iter_mut().for_each(|j| j.drive = false);
     let refused = search(&none, Drives::Independent).map(|_| ()).unwrap_err();
     assert!(matches!(refused, SearchError::NoDrives), "{refused}");
     // A slot as built leaves the beam a motion that one drive does not decide.
     let options =
         "options = [\"fixed\", \"slotted\", { type = \"prismatic\", axis = [1, 0, 0] }]\n";
-    let slotted = GANTRY
-        .replace("\"fixed\"\naxis", "\"slotted\"\naxis")
+    let slotted = gantry()
+        .replace("type = \"fixed\"", "type = \"slotted\"")
         .replace(options, "");
     let mut slotted = mechanism_from_str("gantry.toml", &slotted).unwrap();
     slotted.joints[1].drive = false;

@@ -3,28 +3,16 @@
 use crate::common::*;
 
 /// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
-const SLIDES: &str = r#"
-name = "two-slides"
-mode = "planar"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-role = "output"
-[[joint]]
-id = "left"
-links = ["0", "1"]
-type = "prismatic"
-point = [0, 0, 0]
-axis = [1, 0, 0]
-[[joint]]
-id = "right"
-links = ["0", "1"]
-type = "prismatic"
-point = [2, 0, 0]
-axis = [1, 0, 0]
-"#;
+fn slides() -> String {
+    file_of(
+        "name = \"two-slides\"\nmode = \"planar\"",
+        "0 1*",
+        "
+        left | 0 1 | prismatic | 0, 0, 0 | 1, 0, 0
+        right | 0 1 | prismatic | 2, 0, 0 | 1, 0, 0
+        ",
+    )
+}
 
 fn analysed(content: &str, more: &[&str]) -> Value {
     let (code, said, errors) = run_on(
@@ -45,7 +33,7 @@ fn joint<'a>(stress: &'a Value, name: &str) -> &'a Value {
 /// By hand: slides along x press across it; the force that is no moment at the left is one of 2 at the right.
 #[test]
 fn a_plane_has_its_directions_and_moments_at_the_joints() {
-    let found = analysed(SLIDES, &[]);
+    let found = analysed(&slides(), &[]);
     let stresses = found["states"][0]["self_stresses"].list();
     assert_eq!(stresses.len(), 2);
     let across: Vec<&Value> = stresses
@@ -68,7 +56,7 @@ fn a_plane_has_its_directions_and_moments_at_the_joints() {
         near(joint(stress, "left")["share"].real(), left, 1e-12);
         near(joint(stress, "right")["share"].real(), right, 1e-12);
     }
-    let (_, text, _) = run_on("analyze", "m.toml", SLIDES, &[]);
+    let (_, text, _) = run_on("analyze", "m.toml", &slides(), &[]);
     has(&text, "right 83 %, left 17 %");
     assert!(!text.contains("force along x"), "{text}");
 }
@@ -76,7 +64,7 @@ fn a_plane_has_its_directions_and_moments_at_the_joints() {
 /// The same in the plane of x and z, and off the origin: names follow the plane, shares do not change.
 #[test]
 fn planes_may_lie_anywhere() {
-    let tilted = SLIDES
+    let tilted = slides()
         .replace(
             "mode = \"planar\"",
             "mode = \"planar\"\nplane_normal = [0, 1, 0]",
@@ -154,74 +142,28 @@ fn shares_of_a_self_stress_add_up() {
 
 /// Two coupled slides in a loop, and a part across it. The one self-stress that both couplings carry inside is the
 /// difference of two that also load the part: it must not be counted with those.
-const COUPLED: &str = r#"
-name = "random"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-role = "output"
-[[link]]
-id = "2"
-[[link]]
-id = "3"
-role = "output"
-[[joint]]
-id = "j0"
-links = ["0", "1"]
-type = "revolute"
-point = [0, 0, 0]
-axis = [0, 0, 1]
-[[joint]]
-id = "j1"
-links = ["1", "2"]
-type = "revolute"
-point = [0, 0, 0]
-axis = [0, 0, 1]
-[[joint]]
-id = "j2"
-links = ["2", "3"]
-type = "prismatic"
-point = [-2, 2, -3]
-axis = [0, 3, 0]
-options = ["cylindrical"]
-[[joint]]
-id = "j3"
-links = ["3", "1"]
-type = "slotted"
-point = [3, -2, -2]
-axis = [1, 0, 0]
-[[link]]
-id = "part"
-role = "object"
-[[joint]]
-id = "c0"
-links = ["0", "part"]
-type = "revolute"
-axis = [0, 2, 0]
-point = [4, 0, 1]
-state = "clamped"
-unloading = [{ type = "spherical", point = [4, 2, 0] }]
-[[joint]]
-id = "c1"
-links = ["3", "part"]
-type = "revolute"
-axis = [0, 2, 0]
-point = [4, 1, 1]
-state = "clamped"
-unloading = ["spherical"]
-[[coupling]]
-joints = ["j3:rz", "j2:tz"]
-ratio = 2
-[[coupling]]
-joints = ["j1:rz", "j3:tx"]
-ratio = "1/2"
-"#;
+fn coupled() -> String {
+    let ball = "unloading = [{ type = \"spherical\", point = [4, 2, 0] }]";
+    file_of(
+        "name = \"random\"",
+        "0 1* 2 3* part!",
+        &format!(
+            "
+        j0 | 0 1 | revolute | 0, 0, 0 | 0, 0, 1
+        j1 | 1 2 | revolute | 0, 0, 0 | 0, 0, 1
+        j2 | 2 3 | prismatic | -2, 2, -3 | 0, 3, 0 | options = [\"cylindrical\"]
+        j3 | 3 1 | slotted | 3, -2, -2 | 1, 0, 0
+        c0 | 0 part | revolute | 4, 0, 1 | 0, 2, 0 | state = \"clamped\"\\n{ball}
+        c1 | 3 part | revolute | 4, 1, 1 | 0, 2, 0 | state = \"clamped\"\\nunloading = [\"spherical\"]
+        "
+        ),
+    ) + "[[coupling]]\njoints = [\"j3:rz\", \"j2:tz\"]\nratio = 2\n\
+         [[coupling]]\njoints = [\"j1:rz\", \"j3:tx\"]\nratio = \"1/2\"\n"
+}
 
 #[test]
 fn what_a_state_adds_is_counted_without_what_is_there_already() {
-    let a = analysed(COUPLED, &[]);
+    let a = analysed(&coupled(), &[]);
     let clamped = &a["states"][1];
     let stresses = clamped["self_stresses"].list();
     let external = stresses.iter().filter(|s| s["external"] == true).count();

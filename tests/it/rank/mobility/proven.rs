@@ -172,41 +172,19 @@ fn most_built_ins_of_one_group_are_proven() {
     assert_eq!(open, [""; 0]);
 }
 
-/// A part that touches two jaws hinged together, each by a round edge on a flat face: on which side the faces are, where the edges
-/// lie and which way.
 fn between(part_has_faces: bool, edges: [(i32, [i32; 3]); 2]) -> String {
-    let mut text = String::from(
-        r#"name = "between"
-[[link]]
-id = "f"
-role = "frame"
-[[link]]
-id = "g"
-[[link]]
-id = "p"
-role = "output"
-[[joint]]
-id = "hinge"
-links = ["f", "g"]
-type = "revolute"
-point = [0, -30, 0]
-axis = [1, 0, 0]
-"#,
-    );
+    let mut joints = "hinge | f g | revolute | 0, -30, 0 | 1, 0, 0\n".to_owned();
     for ((y, along), (jaw, z)) in edges.into_iter().zip([("f", 10), ("g", -10)]) {
-        let [first, second] = if part_has_faces {
-            ["p", jaw]
+        let ends = if part_has_faces {
+            format!("p {jaw}")
         } else {
-            [jaw, "p"]
+            format!("{jaw} p")
         };
-        writeln!(
-            text,
-            "[[joint]]\nid = \"{jaw}-p\"\nlinks = [\"{first}\", \"{second}\"]\ntype = \"cylinder-on-plane\"\n\
-             point = [0, {y}, {z}]\naxis = [0, 0, 1]\nreference = {along:?}"
-        )
-        .unwrap();
+        joints += &format!(
+            "{jaw}-p | {ends} | cylinder-on-plane | 0, {y}, {z} | 0, 0, 1 | reference = {along:?}\n"
+        );
     }
-    text
+    file_of("name = \"between\"", "f g p*", &joints)
 }
 
 /// By hand: a part with two edges along x slides along them whatever the jaws do; one with crossed edges does not, for rolling

@@ -139,29 +139,13 @@ fn the_file_as_it_is_written_is_searched_on_demand_and_with_a_warning() {
 }
 
 /// A door on two coaxial hinges, each with nine digits of its own.
-const DOOR: &str = r#"
-name = "door"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "door"
-role = "output"
-[[joint]]
-id = "low"
-links = ["0", "door"]
-type = "revolute"
-point = [0.123456789, 0.234567891, 0.345678912]
-axis = [0.267261242, 0.534522484, 0.801783726]
-[[joint]]
-id = "high"
-links = ["0", "door"]
-type = "revolute"
-point = [0.657979273, 1.303612859, 1.949246364]
-axis = [0.267261243, 0.534522483, 0.801783726]
-[search]
-options = ["spherical", "sphere-in-cylinder"]
-"#;
+fn door() -> String {
+    let joints = "
+        low | 0 door | revolute | 0.123456789, 0.234567891, 0.345678912 | 0.267261242, 0.534522484, 0.801783726
+        high | 0 door | revolute | 0.657979273, 1.303612859, 1.949246364 | 0.267261243, 0.534522483, 0.801783726";
+    file_of("name = \"door\"", "0 door*", joints)
+        + "[search]\noptions = [\"spherical\", \"sphere-in-cylinder\"]\n"
+}
 
 #[test]
 fn a_door_on_measured_hinges_has_the_redesigns_of_the_exact_one() {
@@ -170,55 +154,32 @@ fn a_door_on_measured_hinges_has_the_redesigns_of_the_exact_one() {
         assert_eq!(code, Some(0), "{stderr}");
         value(&stdout)["admissible"].clone()
     };
-    let exact = DOOR
+    let exact = door()
         .replace("0.123456789, 0.234567891, 0.345678912", "0, 0, 0")
         .replace("0.657979273, 1.303612859, 1.949246364", "0, 0, 2")
         .replace("0.267261242, 0.534522484, 0.801783726", "0, 0, 1")
         .replace("0.267261243, 0.534522483, 0.801783726", "0, 0, 1");
     assert_eq!(counts(&exact), "2");
-    assert_eq!(counts(DOOR), "2");
+    assert_eq!(counts(&door()), "2");
 }
 
 /// A wishbone on two bolts, its ball, and the upright on a second ball and a rod: dimensions to 0.01 mm.
-const WISHBONE: &str = r#"
-name = "wishbone"
-length_unit = "mm"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "arm"
-[[link]]
-id = "upright"
-role = "output"
-[[joint]]
-id = "LF"
-links = ["0", "arm"]
-type = "revolute"
-point = [151.23, 0.00, 12.04]
-axis = [0.99998, 0.00001, 0.00632]
-[[joint]]
-id = "LR"
-links = ["0", "arm"]
-type = "revolute"
-point = [-149.85, 0.00, 10.14]
-axis = [0.99998, -0.00002, 0.00635]
-[[joint]]
-id = "ball"
-links = ["arm", "upright"]
-type = "spherical"
-point = [3.42, 310.55, -14.31]
-[[joint]]
-id = "top"
-links = ["0", "upright"]
-type = "sphere-on-plane"
-point = [1.23, 290.12, 240.33]
-axis = [0, 1, 0]
-"#;
+fn wishbone() -> String {
+    file_of(
+        "name = \"wishbone\"\nlength_unit = \"mm\"",
+        "0 arm upright*",
+        "
+        LF | 0 arm | revolute | 151.23, 0.00, 12.04 | 0.99998, 0.00001, 0.00632
+        LR | 0 arm | revolute | -149.85, 0.00, 10.14 | 0.99998, -0.00002, 0.00635
+        ball | arm upright | spherical | 3.42, 310.55, -14.31
+        top | 0 upright | sphere-on-plane | 1.23, 290.12, 240.33 | 0, 1, 0
+        ",
+    )
+}
 
 #[test]
 fn nothing_further_than_its_reach_is_nearly_special() {
-    let m = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
+    let m = mechanism_from_str("wishbone.toml", &wishbone()).unwrap();
     for tolerance in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
         let reach = Reach::relative(tolerance, size(&m));
         let near = nearly_special(&m, reach);
@@ -240,7 +201,7 @@ fn nothing_further_than_its_reach_is_nearly_special() {
 
 #[test]
 fn check_says_what_is_nearly_special() {
-    let (_, _, stderr) = run_on("check", "wishbone.toml", WISHBONE, &[]);
+    let (_, _, stderr) = run_on("check", "wishbone.toml", &wishbone(), &[]);
     has(&stderr, "LF and LR are 0.00");
     has(&stderr, "from coaxial");
     for name in ["four-bar", "bennett", "delta", "gripper-10"] {

@@ -8,35 +8,9 @@ use ozols::model::rounded::uncertainties;
 use ozols::rank::method::auto::decide;
 use ozols::score::outcome::Outcome;
 use ozols::score::request::{List, Request};
-use std::fmt::Write as _;
 
 fn read(text: &str) -> Mechanism {
     bare(mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{text}: {e}")))
-}
-
-/// A file of links, the first the frame and the last the output, and of joints: name, links, type, point, axis.
-fn file(links: &[&str], joints: &[(&str, [&str; 2], &str, String, String)]) -> String {
-    let mut out = "name = \"it\"\n".to_owned();
-    for (i, link) in links.iter().enumerate() {
-        let role = match i {
-            0 => "role = \"frame\"\n",
-            n if n + 1 == links.len() => "role = \"output\"\n",
-            _ => "",
-        };
-        write!(out, "[[link]]\nid = \"{link}\"\n{role}").unwrap();
-    }
-    for (id, [a, b], kind, point, axis) in joints {
-        write!(
-            out,
-            "[[joint]]\nid = \"{id}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"{kind}\"\npoint = {point}\naxis = {axis}\n"
-        )
-        .unwrap();
-    }
-    out
-}
-
-fn list(v: [impl std::fmt::Display; 3]) -> String {
-    format!("[\"{}\", \"{}\", \"{}\"]", v[0], v[1], v[2])
 }
 
 /// A wedge chuck: a draw bar along z, three jaws that slide out at 120°, each on a wedge of the bar; `number` writes so much of
@@ -48,152 +22,53 @@ fn wedge_chuck(number: &dyn Fn(&str, f64) -> String) -> String {
         [("-1/2", -0.5), ("sqrt(3)/2", s)],
         [("-1/2", -0.5), ("-sqrt(3)/2", -s)],
     ];
-    let zero = || list(["0", "0", "0"]);
-    let along = list(["0", "0", "1"]);
-    let mut joints = vec![("bar", ["0", "bar"], "prismatic", zero(), along)];
-    let ids = [["g1", "w1"], ["g2", "w2"], ["g3", "w3"]];
-    for (i, jaw) in ["jaw1", "jaw2", "jaw3"].into_iter().enumerate() {
-        let [x, y] = radial[i].map(|(e, v)| number(e, v));
-        let [px, py] = radial[i].map(|(e, v)| number(&format!("40*({e})"), 40.0 * v));
-        let point = list([px.as_str(), &py, "10"]);
-        let out = list([x.as_str(), &y, "0"]);
-        joints.push((ids[i][0], ["0", jaw], "prismatic", point.clone(), out));
+    let mut joints = "bar | 0 bar | prismatic | 0, 0, 0 | 0, 0, 1\n".to_owned();
+    for (i, way) in (1..).zip(radial) {
+        let [x, y] = way.map(|(e, v)| number(e, v));
+        let [px, py] = way.map(|(e, v)| number(&format!("40*({e})"), 40.0 * v));
         // Four up for one out.
-        let wedge = list([x.as_str(), &y, "4"]);
-        joints.push((ids[i][1], ["bar", jaw], "prismatic", point, wedge));
+        for (of, link, up) in [("g", "0", 0), ("w", "bar", 4)] {
+            joints += &format!(
+                "{of}{i} | {link} jaw{i} | prismatic | \"{px}\", \"{py}\", 10 | \"{x}\", \"{y}\", {up}\n"
+            );
+        }
     }
-    file(&["0", "bar", "jaw1", "jaw2", "jaw3"], &joints)
+    file_of("name = \"it\"", "0 bar jaw1 jaw2 jaw3*", &joints)
 }
 
 /// A double wishbone: each arm on two bushes along a slanted line, a knuckle between two ball joints, a tie rod.
 fn double_wishbone() -> String {
-    let at = |x: i32, y: i32, z: i32| list([x, y, z]);
-    file(
-        &["0", "lower", "upper", "tie", "knuckle"],
-        &[
-            (
-                "lower-front",
-                ["0", "lower"],
-                "revolute",
-                at(-150, 350, 95),
-                at(310, -12, 8),
-            ),
-            (
-                "lower-rear",
-                ["0", "lower"],
-                "revolute",
-                at(160, 338, 103),
-                at(310, -12, 8),
-            ),
-            (
-                "upper-front",
-                ["0", "upper"],
-                "revolute",
-                at(-90, 420, 310),
-                at(200, 9, -14),
-            ),
-            (
-                "upper-rear",
-                ["0", "upper"],
-                "revolute",
-                at(110, 429, 296),
-                at(200, 9, -14),
-            ),
-            (
-                "lower-ball",
-                ["lower", "knuckle"],
-                "spherical",
-                at(4, 720, 80),
-                at(0, 0, 1),
-            ),
-            (
-                "upper-ball",
-                ["upper", "knuckle"],
-                "spherical",
-                at(-9, 680, 330),
-                at(0, 0, 1),
-            ),
-            (
-                "rack-end",
-                ["0", "tie"],
-                "spherical",
-                at(-120, 360, 150),
-                at(0, 0, 1),
-            ),
-            (
-                "tie-end",
-                ["tie", "knuckle"],
-                "spherical",
-                at(-130, 700, 140),
-                at(0, 0, 1),
-            ),
-        ],
+    file_of(
+        "name = \"it\"",
+        "0 lower upper tie knuckle*",
+        "
+        lower-front | 0 lower | revolute | -150, 350, 95 | 310, -12, 8
+        lower-rear | 0 lower | revolute | 160, 338, 103 | 310, -12, 8
+        upper-front | 0 upper | revolute | -90, 420, 310 | 200, 9, -14
+        upper-rear | 0 upper | revolute | 110, 429, 296 | 200, 9, -14
+        lower-ball | lower knuckle | spherical | 4, 720, 80 | 0, 0, 1
+        upper-ball | upper knuckle | spherical | -9, 680, 330 | 0, 0, 1
+        rack-end | 0 tie | spherical | -120, 360, 150 | 0, 0, 1
+        tie-end | tie knuckle | spherical | -130, 700, 140 | 0, 0, 1
+        ",
     )
 }
 
 /// A tailgate: a lid on two hinges across the car, and a strut of two tubes on either side.
 fn tailgate() -> String {
-    let at = |x: i32, y: i32, z: i32| list([x, y, z]);
-    file(
-        &["0", "tube-l", "rod-l", "tube-r", "rod-r", "lid"],
-        &[
-            (
-                "hinge-l",
-                ["0", "lid"],
-                "revolute",
-                at(0, 480, 1400),
-                at(0, 1, 0),
-            ),
-            (
-                "hinge-r",
-                ["0", "lid"],
-                "revolute",
-                at(0, -480, 1400),
-                at(0, 1, 0),
-            ),
-            (
-                "foot-l",
-                ["0", "tube-l"],
-                "spherical",
-                at(180, 610, 1010),
-                at(0, 0, 1),
-            ),
-            (
-                "strut-l",
-                ["tube-l", "rod-l"],
-                "cylindrical",
-                at(290, 600, 1130),
-                at(110, -10, 120),
-            ),
-            (
-                "head-l",
-                ["rod-l", "lid"],
-                "spherical",
-                at(400, 590, 1250),
-                at(0, 0, 1),
-            ),
-            (
-                "foot-r",
-                ["0", "tube-r"],
-                "spherical",
-                at(180, -610, 1010),
-                at(0, 0, 1),
-            ),
-            (
-                "strut-r",
-                ["tube-r", "rod-r"],
-                "cylindrical",
-                at(290, -600, 1130),
-                at(110, 10, 120),
-            ),
-            (
-                "head-r",
-                ["rod-r", "lid"],
-                "spherical",
-                at(400, -590, 1250),
-                at(0, 0, 1),
-            ),
-        ],
+    file_of(
+        "name = \"it\"",
+        "0 tube-l rod-l tube-r rod-r lid*",
+        "
+        hinge-l | 0 lid | revolute | 0, 480, 1400 | 0, 1, 0
+        hinge-r | 0 lid | revolute | 0, -480, 1400 | 0, 1, 0
+        foot-l | 0 tube-l | spherical | 180, 610, 1010 | 0, 0, 1
+        strut-l | tube-l rod-l | cylindrical | 290, 600, 1130 | 110, -10, 120
+        head-l | rod-l lid | spherical | 400, 590, 1250 | 0, 0, 1
+        foot-r | 0 tube-r | spherical | 180, -610, 1010 | 0, 0, 1
+        strut-r | tube-r rod-r | cylindrical | 290, -600, 1130 | 110, 10, 120
+        head-r | rod-r lid | spherical | 400, -590, 1250 | 0, 0, 1
+        ",
     )
 }
 

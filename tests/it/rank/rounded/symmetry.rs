@@ -16,32 +16,18 @@ fn asked(symmetry: Symmetry) -> Request {
     }
 }
 
-/// A shaft and two rods to two rockers, by half a turn each other's images.
 fn two_rockers() -> Mechanism {
-    let mut file = "name = \"two-rockers\"\n".to_owned();
-    for (id, role) in [
-        ("0", "role = \"frame\""),
-        ("shaft", "role = \"output\""),
-        ("rod", ""),
-        ("rod2", ""),
-        ("rocker", ""),
-        ("rocker2", ""),
-    ] {
-        file += &format!("[[link]]\nid = \"{id}\"\n{role}\n");
-    }
-    file += "[[joint]]\nid = \"o\"\nlinks = [\"0\", \"shaft\"]\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [0, 0, 0]\n";
+    let mut joints = "o | 0 shaft | revolute | 0, 0, 0 | 0, 0, 1\n".to_owned();
     for (of, sign) in [("", ""), ("2", "-")] {
-        for (id, links, [x, y]) in [
-            ("a", ["shaft".to_owned(), format!("rod{of}")], [2, 0]),
-            ("b", [format!("rod{of}"), format!("rocker{of}")], [3, 4]),
-            ("c", [format!("rocker{of}"), "0".to_owned()], [7, 1]),
-        ] {
-            file += &format!(
-                "[[joint]]\nid = \"{id}{of}\"\nlinks = {links:?}\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{sign}{x}, {sign}{y}, 0]\n"
-            );
-        }
+        joints += &format!(
+            "a{of} | shaft rod{of} | revolute | {sign}2, {sign}0, 0 | 0, 0, 1
+            b{of} | rod{of} rocker{of} | revolute | {sign}3, {sign}4, 0 | 0, 0, 1
+            c{of} | rocker{of} 0 | revolute | {sign}7, {sign}1, 0 | 0, 0, 1\n"
+        );
     }
-    file += "[search]\noptions = [\"revolute\"]\nturn = [[\"a\", \"a2\"], [\"b\", \"b2\"], [\"c\", \"c2\"]]\n";
+    let turn = "turn = [[\"a\", \"a2\"], [\"b\", \"b2\"], [\"c\", \"c2\"]]";
+    let head = format!("name = \"two-rockers\"\n[search]\noptions = [\"revolute\"]\n{turn}");
+    let file = file_of(&head, "0 shaft* rod rod2 rocker rocker2", &joints);
     mechanism_from_str("x.toml", &file).unwrap()
 }
 

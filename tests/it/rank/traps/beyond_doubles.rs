@@ -1,8 +1,7 @@
 //! Shaky poses whose gaps sink below what doubles hold: undecided or still, never a motion for sure.
 
 use super::{all, judge};
-use crate::common::run_on;
-use std::fmt::Write;
+use crate::common::*;
 
 /// At a fifth of a radian a row of five toggles gapes by 10^-23, one of nine by 10^-358.
 #[test]
@@ -32,29 +31,17 @@ fn no_branch_is_one_that_a_high_order_stops() {
     }
 }
 
-/// Three parallel rods, one of them longer by so much.
 fn rods(longer: &str, third: &str) -> String {
-    let mut text = String::from("name = \"rods\"\nlength_unit = \"mm\"\n");
-    for (link, role) in [
-        ("0", "role = \"frame\""),
-        ("a", ""),
-        ("b", ""),
-        ("c", ""),
-        ("top", "role = \"output\""),
-    ] {
-        writeln!(text, "[[link]]\nid = \"{link}\"\n{role}").unwrap();
-    }
+    let mut joints = String::new();
     for (rod, x, y) in [("a", "0", "100"), ("b", "100", "100"), ("c", third, longer)] {
-        for (ends, y) in [(["0", rod], "0"), ([rod, "top"], y)] {
-            writeln!(
-                text,
-                "[[joint]]\nid = \"{}-{}\"\nlinks = {ends:?}\ntype = \"revolute\"\npoint = [\"{x}\", \"{y}\", 0]\naxis = [0, 0, 1]",
-                ends[0], ends[1]
-            )
-            .unwrap();
-        }
+        joints += &format!("0-{rod} | 0 {rod} | revolute | \"{x}\", \"0\", 0 | 0, 0, 1\n");
+        joints += &format!("{rod}-top | {rod} top | revolute | \"{x}\", \"{y}\", 0 | 0, 0, 1\n");
     }
-    text
+    file_of(
+        "name = \"rods\"\nlength_unit = \"mm\"",
+        "0 a b c top*",
+        &joints,
+    )
 }
 
 /// What is longer by 0.78 µm, or by a millionth of that, stops it: written exactly, in decimals, and with digits to spare.

@@ -95,25 +95,22 @@ fn joints_without_a_partner_and_skew_axes_say_which_plane_it_is() {
         ([1, 2, -1], [1, -2, -1]),
         ([0, 1, 0], [0, -1, 0]),
     ] {
-        let mut text = String::from(
-            "name = \"on the plane\"\n[search]\nmirror = [[\"u0\", \"l0\"], [\"u1\", \"l1\"]]\n",
-        );
-        for (link, role) in [
-            ("f", "role = \"frame\""),
-            ("s", ""),
-            ("u", "role = \"output\""),
-            ("l", "role = \"output\""),
-        ] {
-            text += &format!("[[link]]\nid = \"{link}\"\n{role}\n");
-        }
-        text += "[[joint]]\nid = \"middle\"\nlinks = [\"f\", \"s\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\noptions = [\"cylindrical\"]\n";
-        for (side, axis) in [("u", axis), ("l", image)] {
-            for (i, ends) in [["s", side], [side, "f"]].iter().enumerate() {
-                text += &format!(
-                    "[[joint]]\nid = \"{side}{i}\"\nlinks = {ends:?}\ntype = \"revolute\"\npoint = [3, 0, {i}]\naxis = {axis:?}\noptions = [\"spherical\"]\n"
+        let mut joints =
+            "middle | f s | revolute | 0, 0, 0 | 1, 0, 0 | options = [\"cylindrical\"]\n"
+                .to_owned();
+        for (side, [x, y, z]) in [("u", axis), ("l", image)] {
+            for (i, ends) in [format!("s {side}"), format!("{side} f")]
+                .iter()
+                .enumerate()
+            {
+                joints += &format!(
+                    "{side}{i} | {ends} | revolute | 3, 0, {i} | {x}, {y}, {z} | options = [\"spherical\"]\n"
                 );
             }
         }
+        let head =
+            "name = \"on the plane\"\n[search]\nmirror = [[\"u0\", \"l0\"], [\"u1\", \"l1\"]]";
+        let text = file_of(head, "f s u* l*", &joints);
         let m = mechanism_from_str("on-the-plane.toml", &text).unwrap();
         let conditions = but(|c: &mut Conditions| c.symmetry = Symmetry::SymmetricOnly);
         let search = Search::new(exact_field(&m, 0).unwrap(), &m, conditions);
