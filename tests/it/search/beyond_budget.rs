@@ -1,9 +1,7 @@
 //! What is known where the diagram of all variants does not fit the budget: the cheapest, proven, and about how many there
 //! are.
 
-use super::families::scissor_lift;
 use crate::common::*;
-use ozols::search::answer::estimate::Drawn;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::build::Diagrams;
 use proptest::prelude::*;

@@ -12,7 +12,7 @@ use crate::view::grip::reasons;
 use crate::view::grip::text::effort_of_drive;
 use crate::view::joined;
 use crate::view::terminal::layout::table;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -100,6 +100,12 @@ impl<'a> NotHeld<'a> {
     }
 }
 
+impl Serialize for Clamped<'_> {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        self.data().serialize(s)
+    }
+}
+
 impl Clamped<'_> {
     /// Returns the contacts as joints of the mechanism: the joint, the link that touches, and the force on the part; nothing where it is
     /// not held.
@@ -112,15 +118,14 @@ impl Clamped<'_> {
         }))
     }
 
-    /// Returns the reactions with the grip that causes them as data; with the state, where they do not name it.
-    #[must_use]
-    pub fn beside(&self, reactions: &impl Serialize, state: Option<&str>) -> Value {
+    /// Returns the loads as data.
+    fn data(&self) -> Value {
         let hardest = self.row.hardest.as_ref();
         let held = hardest.and_then(Hardest::held);
         let contact = |(contact, jaw, force): (&str, &str, &ContactForce)| {
             joined([json!({ "contact": contact, "jaw": jaw }), json!(force)])
         };
-        let grip = json!({
+        json!({
             "diameter": self.row.diameter,
             "case": hardest.map(|h| &h.case),
             // Gravity less acceleration in that case.
@@ -132,9 +137,7 @@ impl Clamped<'_> {
             "lever_moments": held.map(|h| h.moments),
             "drive_effort": self.found.effort.map(|e| e.0),
             "contacts": self.contacts().map(|all| all.map(contact).collect::<Value>()),
-        });
-        let state = state.map_or(Value::Null, |state| json!({ "state": state }));
-        joined([json!(reactions), state, json!({ "grip": grip })])
+        })
     }
 
     /// Returns the factor that the load is multiplied by.

@@ -103,7 +103,11 @@ impl<'a> ToldStatics<'a> {
         ToldStatics {
             reactions,
             state: flat.then(|| m.states[g.state].as_str()),
-            grip: Some(Clamped::new(g, row, found)),
+            grip: Some(Clamped {
+                grip: g,
+                row,
+                found,
+            }),
             pose: pose(g, row),
         }
     }
