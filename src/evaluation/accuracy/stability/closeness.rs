@@ -27,12 +27,15 @@ struct Special {
     truth: [Truth; 2],
 }
 
-/// Built-in ones with a joint, whether its axis is tilted instead of its point moved, the coordinate, the unit, and what is left.
-const BUILT_IN: [(&str, &str, bool, usize, i64, (i64, i64)); 4] = [
-    ("bennett", "1-2", false, 0, 40, (0, 0)),
-    ("parallelogram-3-rods", "3-4", false, 1, 200, (1, 0)),
-    ("sarrus", "2-3", true, 2, 1, (0, 0)),
-    ("collinear-truss", "1-2", false, 1, 60, (0, 0)),
+/// A joint, whether its axis is tilted instead of its point moved, the coordinate, and the unit.
+type Place = (&'static str, bool, usize, i64);
+
+/// Built-in ones with their places, and what is left of W and finite mobility.
+const BUILT_IN: [(&str, Place, (i64, i64)); 4] = [
+    ("bennett", ("1-2", false, 0, 40), (0, 0)),
+    ("parallelogram-3-rods", ("3-4", false, 1, 200), (1, 0)),
+    ("sarrus", ("2-3", true, 2, 1), (0, 0)),
+    ("collinear-truss", ("1-2", false, 1, 60), (0, 0)),
 ];
 
 fn truth((instantaneous, finite): (i64, i64)) -> Truth {
@@ -46,7 +49,7 @@ impl Special {
     fn built_in(cases: &[Case]) -> impl Iterator<Item = Special> + '_ {
         BUILT_IN
             .into_iter()
-            .filter_map(|(name, joint, axis, coordinate, unit, off)| {
+            .filter_map(|(name, (joint, axis, coordinate, unit), off)| {
                 let case = cases.iter().find(|c| c.name() == name)?;
                 let mechanism = case.mechanism.clone();
                 Some(Special {
@@ -74,7 +77,7 @@ impl Special {
 
     fn displaced(&self, exponent: i32) -> Mechanism {
         let mut m = self.mechanism.clone();
-        let joint = m.joints.iter_mut().nth(self.joint);
+        let joint = m.joints.get_mut(self.joint);
         if let Some(joint) = joint {
             let frame = &mut joint.frame;
             let vector = if self.axis {
