@@ -200,7 +200,7 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
 
 /// The nodes of a search that was stopped, and the width of its bracket of the determinate variants in per cent of the estimate.
 fn bracket(outcome: &Outcome) -> Option<(f64, f64)> {
-    let estimate = outcome.estimates()[0]?;
+    let estimate = outcome.estimates()[0].filter(|e| e.mean > 0.0)?;
     let nodes = outcome.diagrams.as_ref()?.determinate.nodes;
     let [least, most] = estimate.between;
     let least = least.max(outcome.determinate.total.to_f64()?);

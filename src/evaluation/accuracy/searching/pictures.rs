@@ -4,7 +4,7 @@ use super::record::{self, Record, Share, Trial};
 use super::search_method::Way;
 use crate::accuracy::timing::Machine;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
-use crate::format::{figure, grouped, list};
+use crate::format::{brief, grouped, list};
 
 /// Which way to take, in three lines.
 pub const USE_WHEN: [&str; 3] = [
@@ -32,7 +32,13 @@ fn kinds(trials: &[Trial]) -> Vec<Kind> {
             let (Some((of, time)), Some(share)) = (times, share) else {
                 continue;
             };
-            let point = (time.median / of.median, share.percent_wrong());
+            // By a clock that stands still all take as long.
+            let times = if of.median > 0.0 {
+                time.median / of.median
+            } else {
+                1.0
+            };
+            let point = (times, share.percent_wrong());
             let name = record.way.kind();
             match kinds.iter_mut().find(|k| k.0 == name) {
                 Some(kind) => kind.1.push(point),
@@ -89,7 +95,7 @@ pub fn conclusion(trials: &[Trial]) -> String {
         } else {
             "never wrong".to_owned()
         };
-        let [least, most] = [least, most].map(figure);
+        let [least, most] = [least, most].map(brief);
         format!("{name} {wrong}, in {least} to {most} times the time of the whole diagram")
     });
     format!("{}.", told.collect::<Vec<_>>().join("; "))
@@ -134,7 +140,7 @@ fn bracket_sentence(chart: &Chart) -> String {
         let each = s
             .points
             .iter()
-            .map(|(nodes, width)| format!("{} % by {} nodes", figure(*width), figure(*nodes)));
+            .map(|(nodes, width)| format!("{} % by {} nodes", brief(*width), brief(*nodes)));
         format!("{}: {}", s.name, list(&each.collect::<Vec<_>>()))
     });
     format!("{}.", told.collect::<Vec<_>>().join("; "))

@@ -152,7 +152,7 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         advice: "Nothing: primes near 2^61 cost no more time than small ones, and err in fewer than one of 10^17 cases.",
         rows: Vec::new(),
     };
-    let each = if effort.quick { 500 } else { 10_000 };
+    let each = if effort.quick { 500 } else { 4_000 };
     study.asked(
         ["random points", "built-in mechanisms"],
         each,
