@@ -80,10 +80,13 @@ pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     Some(PairStructure {
         chain: match row.get(9)?.as_str() {
             Some(code) => Chain::of_code(chain.links(), code)?,
-            None => match slides {
-                true => chain.with(input, PairKind::Slide),
-                false => chain,
-            },
+            None => {
+                if slides {
+                    chain.with(input, PairKind::Slide)
+                } else {
+                    chain
+                }
+            }
         },
         roles: Roles {
             frame,

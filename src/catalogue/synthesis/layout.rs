@@ -153,9 +153,10 @@ pub fn layout(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layou
                 continue;
             }
         };
-        why = match structure.form.hinges {
-            true => NoLayout::Motion(NoGripper::DeadDrive),
-            false => NoLayout::NotRegular,
+        why = if structure.form.hinges {
+            NoLayout::Motion(NoGripper::DeadDrive)
+        } else {
+            NoLayout::NotRegular
         };
         let sketch = Sketch::new(structure, rules, limits);
         let mut judge = Judge::new(&sketch);
@@ -177,9 +178,10 @@ pub fn layout(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layou
     }
     if structure.sides.is_some() {
         let tip = looks.tips[0];
-        looks.tips = match structure.is_axial() {
-            true => vec![tip; SIDES],
-            false => vec![tip, third(tip), third(third(tip))],
+        looks.tips = if structure.is_axial() {
+            vec![tip; SIDES]
+        } else {
+            vec![tip, third(tip), third(third(tip))]
         };
     }
     Ok(Layout {

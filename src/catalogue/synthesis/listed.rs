@@ -18,9 +18,12 @@ use std::sync::{Mutex, PoisonError};
 #[must_use]
 pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
     let all = symmetric_grippers(links, menu).into_iter();
-    let symmetry = |half_turn| match half_turn {
-        true => Symmetry::HalfTurn,
-        false => Symmetry::Mirror,
+    let symmetry = |half_turn| {
+        if half_turn {
+            Symmetry::HalfTurn
+        } else {
+            Symmetry::Mirror
+        }
     };
     all.map(|g| Structure::new(g.structure, Form::of(symmetry(g.kind.half_turn))))
         .collect()
