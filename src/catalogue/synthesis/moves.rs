@@ -220,7 +220,6 @@ impl Sketch<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::synthesis::random;
     use crate::synthesis::seen_sides::SeenSides;
     use crate::synthesis::sketch::each_classic;

@@ -103,6 +103,8 @@ pub struct Rules {
     symmetry: Symmetry,
     /// Whether pinions are screws, and racks nuts.
     pub threaded: bool,
+    /// Whether all are hinges but the input.
+    hinges: bool,
 }
 
 impl Rules {
@@ -181,6 +183,7 @@ impl Rules {
             swap: lay.swap.clone(),
             symmetry,
             threaded: structure.form.threaded,
+            hinges: structure.form.hinges,
         })
     }
 
@@ -227,7 +230,9 @@ impl Rules {
                 thirds: times,
                 ..Place::of(points[of])
             },
-            _ => Place::of(points[joint]),
+            _ if self.hinges => Place::of(points[joint]),
+            // Pitch points are not whole, and stand for no joint.
+            _ => Place::of(points[joint].map(f64::round)),
         }
     }
 

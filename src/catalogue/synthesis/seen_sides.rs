@@ -218,7 +218,6 @@ fn bits(mut set: u32) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::SeenSides;
-    use crate::synthesis::sketch::LayoutSketch;
     use crate::synthesis::sketch::each_classic;
     use crate::synthesis::{below, random};
 
