@@ -169,7 +169,8 @@ fn halves_give_the_symmetric_ones_of_all() {
         let halves = symmetric_census(links, menu);
         for (half_turn, jaw) in [(false, false), (false, true), (true, false), (true, true)] {
             let own = all.iter().filter(|(d, _)| d.jaw == jaw);
-            let flagged = own.map(|(_, g)| if half_turn { g.half_turn } else { g.mirror });
+            let of = [Counted::Mirror, Counted::HalfTurn][usize::from(half_turn)];
+            let flagged = own.map(|(_, g)| g[of]);
             let made = halves
                 .iter()
                 .filter(|(k, _)| k.half_turn == half_turn && k.driven_jaw == jaw);

@@ -133,11 +133,12 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
         let laid = row.laid.unwrap();
         seen += 1;
         let m = ozols::from_toml(&laid.file).unwrap();
+        let drawn = Drawn::new(&s, laid.layout.clone());
         let turn = subject.swaps(&s.structure.roles).next().unwrap();
         let places: BTreeMap<(usize, usize), [f64; 2]> = m
             .joints
             .iter()
-            .zip(&Drawn::new(&s, laid.layout.clone()).pins)
+            .zip(&drawn.pins)
             .map(|(j, &pin)| {
                 let [x, y, _] = real(&j.frame.point);
                 (pin, [x, y])
@@ -160,10 +161,7 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
         assert!(laid.exact && !laid.ideas.is_empty());
         // All three tips as fast towards the middle, as the layout says.
         let step = 1e-5;
-        let (ahead, back) = (
-            moved(&s, &laid.layout, step),
-            moved(&s, &laid.layout, -step),
-        );
+        let (ahead, back) = (moved(&s, &drawn, step), moved(&s, &drawn, -step));
         let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
         for (a, b) in ahead.iter().zip(&back) {
             let speed = (radius(a) - radius(b)).abs() / (2.0 * step);
