@@ -249,7 +249,7 @@ fn what_is_not_asked_is_margin() {
     each(4, &[(s.input(), s.form)], |_, s| {
         laid = Some(layout(&s, &Limits::default(), 1).unwrap());
     });
-    let mut laid = laid.unwrap();
+    let mut laid = laid.unwrap().layout;
     let whole = figures(&s, &laid).unwrap();
     assert_eq!(whole.openings, [0.0, 50.0]);
     laid.limits.task = Task {
