@@ -1,11 +1,10 @@
 //! What elements beside links and joints add: plugins that weld links or couple joints, and elements that no reader knows. Those that
 //! could close a loop or couple joints are reported and counted; the others (friction, colours, publishers) bear no kinematics.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot};
-use crate::robots::problem::{known, unknown_name};
+use crate::robots::problem::{Read, known, unknown_name};
 use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
 use crate::robots::xml::Element;
 use std::collections::BTreeSet;
@@ -54,7 +53,7 @@ pub(crate) fn plugin(
     scope: &str,
     scene: &SdfScene<'_>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     if let (Some(leader), Some(follower)) = (said(e, "joint"), said(e, "mimicJoint")) {
         let ratio = e.child("multiplier").map(|m| m.text_numbers::<1>());
         let ratio = ratio.transpose()?.map_or(1.0, |[x]| x);
@@ -164,7 +163,7 @@ pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSe
 }
 
 /// Drake's ball constraint: a point of one body held to a point of another.
-pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (end, (body, point)) in ends.iter_mut().zip([("A", "p_AP"), ("B", "p_BQ")]) {
         let part = |k: &str| {

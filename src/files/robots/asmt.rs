@@ -1,12 +1,11 @@
 //! OndselSolver's assemblies, `.asmt`: parts with markers, and joints between two markers each.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
-use crate::robots::problem::{bad_value, known, missing, unknown_name, unknown_word};
+use crate::robots::problem::{Read, bad_value, known, missing, unknown_name, unknown_word};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
@@ -29,11 +28,7 @@ pub(crate) fn is_one(text: &[u8]) -> bool {
 }
 
 /// Reads the lines of a file into the arena.
-pub(crate) fn document(
-    document: &mut Document,
-    name: &str,
-    text: String,
-) -> Result<usize, ImportError> {
+pub(crate) fn document(document: &mut Document, name: &str, text: String) -> Read<usize> {
     document.read_outline(name, text, 1, RESULTS)
 }
 
@@ -46,7 +41,7 @@ pub(crate) fn read(
     root: usize,
     _: Reader<'_>,
     options: &Options,
-) -> Result<Robot, ImportError> {
+) -> Read<Robot> {
     let text = document.sources[0].text.as_str();
     let unit = HEADS.iter().find(|(head, _)| text.starts_with(head));
     let unit = unit.map_or(Unit::Millimetre, |(_, unit)| *unit);
@@ -98,12 +93,12 @@ pub(crate) fn read(
 }
 
 /// What a label has, or where it is missing.
-fn has<'a>(e: Element<'a>, label: &str) -> Result<Element<'a>, ImportError> {
+fn has<'a>(e: Element<'a>, label: &str) -> Read<Element<'a>> {
     let found = e.child(label);
     found.ok_or_else(|| e.fail(None, missing(&called(e), label)))
 }
 
-fn name(e: Element<'_>) -> Result<&str, ImportError> {
+fn name(e: Element<'_>) -> Read<&str> {
     Ok(has(e, "Name")?.text())
 }
 
@@ -116,7 +111,7 @@ fn called(e: Element<'_>) -> String {
 }
 
 /// The place that a label has within what it stands in.
-fn pose(e: Element<'_>) -> Result<RigidMotion, ImportError> {
+fn pose(e: Element<'_>) -> Read<RigidMotion> {
     let translation = has(e, "Position3D")?.text_numbers::<3>()?;
     let matrix = has(e, "RotationMatrix")?;
     let all = matrix.text_numbers::<9>()?;
@@ -154,7 +149,7 @@ fn collect(
     place: &RigidMotion,
     path: &str,
     out: &mut Markers,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let points = e.child("RefPoints");
     for point in points.iter().flat_map(|p| p.named("RefPoint")) {
         let at = place.then(&pose(point)?);
@@ -168,7 +163,7 @@ fn collect(
     Ok(())
 }
 
-fn connection(e: Element<'_>, markers: &Markers) -> Result<Connection, ImportError> {
+fn connection(e: Element<'_>, markers: &Markers) -> Read<Connection> {
     let end = |label: &str| {
         let said = has(e, label)?;
         let path = said.text();
@@ -187,17 +182,17 @@ fn connection(e: Element<'_>, markers: &Markers) -> Result<Connection, ImportErr
     })
 }
 
-fn figure(e: Element<'_>, label: &str) -> Result<f64, ImportError> {
+fn figure(e: Element<'_>, label: &str) -> Read<f64> {
     let [x] = has(e, label)?.text_numbers::<1>()?;
     Ok(x)
 }
 
 /// The distance that a plane is off; 0 where the file says none.
-fn offset(e: Element<'_>) -> Result<f64, ImportError> {
+fn offset(e: Element<'_>) -> Read<f64> {
     e.child("offset").map_or(Ok(0.0), |_| figure(e, "offset"))
 }
 
-fn holds(e: Element<'_>) -> Result<Holds, ImportError> {
+fn holds(e: Element<'_>) -> Read<Holds> {
     let word = e.name().strip_suffix("Joint").unwrap_or(e.name());
     Ok(match word {
         "Fixed" => Holds::Fixed,

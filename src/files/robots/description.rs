@@ -14,6 +14,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
+use crate::robots::problem::Read;
 use crate::robots::warning::Report;
 use crate::robots::xml::Element;
 use std::collections::{BTreeMap, BTreeSet};
@@ -101,7 +102,7 @@ impl Part {
         id: &str,
         ends: [(usize, RigidMotion); 2],
         joint_type: JointType,
-    ) -> Result<Part, ImportError> {
+    ) -> Read<Part> {
         let links = ends.map(|end| end.0);
         if links[0] == links[1] {
             return Err(same_link(e));

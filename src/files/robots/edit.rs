@@ -1,11 +1,10 @@
 //! Edits of a description by spans of its text: everything else stays as it is, byte for byte.
 
-use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::mechanism::series_of_single_joints::unique;
-use crate::robots::problem::whole;
+use crate::robots::problem::{Read, whole};
 use crate::robots::xml::Element;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -58,12 +57,7 @@ impl<'a> Edits<'a> {
     }
 
     /// Gives an attribute another value, or adds it.
-    pub(crate) fn set(
-        &mut self,
-        e: Element<'_>,
-        name: &str,
-        value: &str,
-    ) -> Result<(), ImportError> {
+    pub(crate) fn set(&mut self, e: Element<'_>, name: &str, value: &str) -> Read<()> {
         let value = quick_xml::escape::escape(value).into_owned();
         match (e.attribute(name), e.value_span(name)) {
             (_, Some(span)) => self.replace(e, span, value),
@@ -129,7 +123,7 @@ impl<'a> Edits<'a> {
     }
 
     /// The text of the description with all edits.
-    pub(crate) fn apply(mut self) -> Result<String, ImportError> {
+    pub(crate) fn apply(mut self) -> Read<String> {
         self.children();
         let sources = &self.origin.document.sources;
         // The root's file is the first that was read.

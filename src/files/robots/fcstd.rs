@@ -6,7 +6,6 @@ mod joint;
 mod objects;
 mod reference;
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
@@ -14,7 +13,7 @@ use crate::robots::description::{Robot, Unit};
 use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
-use crate::robots::problem::{known, too_many, unknown_name, whole};
+use crate::robots::problem::{Read, known, too_many, unknown_name, whole};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{self, Document, Element};
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,7 +38,7 @@ pub(crate) fn read(
     root: usize,
     read: Reader<'_>,
     options: &Options,
-) -> Result<Robot, ImportError> {
+) -> Read<Robot> {
     let mut robot = Robot::new("");
     let roots = linked(document, root, read, &mut robot)?;
     let mut documents = Documents {
@@ -68,7 +67,7 @@ fn linked(
     root: usize,
     read: Reader<'_>,
     robot: &mut Robot,
-) -> Result<BTreeMap<String, usize>, ImportError> {
+) -> Read<BTreeMap<String, usize>> {
     let mut out = BTreeMap::new();
     let mut wanted = files(document, root)?;
     let mut seen: BTreeSet<String> = wanted.iter().cloned().collect();
@@ -108,7 +107,7 @@ fn linked(
 }
 
 /// The files that links of a document lead to.
-fn files(document: &Document, root: usize) -> Result<Vec<String>, ImportError> {
+fn files(document: &Document, root: usize) -> Read<Vec<String>> {
     let objects = Objects::of(document.element(root))?;
     let files = objects.all().filter_map(|o| Some(o.linked()?.0.to_owned()));
     let files: BTreeSet<String> = files.filter(|f| !f.is_empty()).collect();
@@ -146,7 +145,7 @@ fn chosen<'a>(
     objects: &Objects<'a>,
     options: &Options,
     robot: &mut Robot,
-) -> Result<Object<'a>, ImportError> {
+) -> Read<Object<'a>> {
     let all: Vec<Object<'a>> = (objects.all())
         .filter(|o| o.kind == "Assembly::AssemblyObject")
         .copied()
@@ -197,12 +196,7 @@ struct Parts<'a> {
 }
 
 impl<'a> Assembling<'a, '_> {
-    fn assembly(
-        &self,
-        document: &'a Document,
-        root: usize,
-        robot: &mut Robot,
-    ) -> Result<Assembly, ImportError> {
+    fn assembly(&self, document: &'a Document, root: usize, robot: &mut Robot) -> Read<Assembly> {
         let ended = self.ended(robot)?;
         let grounded = self.grounded(&ended, robot);
         let Parts { parts, place } = self.parts(&ended, &grounded, document.element(root))?;
@@ -261,7 +255,7 @@ impl<'a> Assembling<'a, '_> {
         ended: &[Ended<'a>],
         grounded: &BTreeSet<&'a str>,
         root: Element<'_>,
-    ) -> Result<Parts<'a>, ImportError> {
+    ) -> Read<Parts<'a>> {
         let mut parts: Vec<(String, RigidMotion)> =
             vec![(self.assembly.label().to_owned(), RigidMotion::IDENTITY)];
         let mut place: BTreeMap<&str, usize> = BTreeMap::new();
@@ -286,7 +280,7 @@ impl<'a> Assembling<'a, '_> {
     }
 
     /// The joints whose two ends are known; the others are told.
-    fn ended(&self, robot: &mut Robot) -> Result<Vec<Ended<'a>>, ImportError> {
+    fn ended(&self, robot: &mut Robot) -> Read<Vec<Ended<'a>>> {
         let mut out = Vec::new();
         for joint in &self.joints {
             let Some(word) = joint.word("JointType")? else {
@@ -332,7 +326,7 @@ impl<'a> Assembling<'a, '_> {
 }
 
 /// The directions that sliders slide along, by the parts they join.
-fn slides<'a>(ended: &[Ended<'a>]) -> Result<Vec<Slide<'a>>, ImportError> {
+fn slides<'a>(ended: &[Ended<'a>]) -> Read<Vec<Slide<'a>>> {
     let mut out = Vec::new();
     for (joint, word, ends) in ended {
         if *word == "Slider" {

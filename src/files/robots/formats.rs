@@ -1,11 +1,10 @@
 //! The formats of files: which are read, which are written, and by what.
 
-use crate::file::problem::ImportError;
 use crate::file::write::{self, mechanism_file};
 use crate::model::mechanism::Mechanism;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::Robot;
-use crate::robots::problem::ExportError;
+use crate::robots::problem::{ExportError, Read};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::Document;
 use crate::robots::{asmt, fcstd, graph, mjcf, sdf, urdf};
@@ -26,8 +25,7 @@ pub struct Format {
 }
 
 /// Reads the robot below the root element of a document; the files it includes are given by the reader.
-pub(crate) type Describe =
-    fn(&mut Document, usize, Reader<'_>, &Options) -> Result<Robot, ImportError>;
+pub(crate) type Describe = fn(&mut Document, usize, Reader<'_>, &Options) -> Read<Robot>;
 
 /// How a format is written.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,6 @@ mod replicate;
 mod weights;
 pub(super) mod write;
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, Z, length};
 use crate::model::joint_type::JointType;
@@ -17,7 +16,7 @@ use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free};
 use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
-use crate::robots::problem::bad_value;
+use crate::robots::problem::{Read, bad_value};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 use std::collections::BTreeMap;
@@ -66,7 +65,7 @@ pub(crate) fn read(
     root: usize,
     inner: Reader<'_>,
     options: &Options,
-) -> Result<Robot, ImportError> {
+) -> Read<Robot> {
     include::expand(document, root, inner, !options.models.is_empty())?;
     replicate::expand(document, root)?;
     let root = document.element(root);
@@ -135,11 +134,7 @@ fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
     joints.filter_map(|j| j.attribute("joint")).collect()
 }
 
-fn bodies<'a>(
-    start: Waiting<'a>,
-    context: &mut Context<'a>,
-    robot: &mut Robot,
-) -> Result<(), ImportError> {
+fn bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Robot) -> Read<()> {
     let mut stack = vec![start];
     while let Some(w) = stack.pop() {
         let mut here = Vec::new();
@@ -184,12 +179,7 @@ fn bodies<'a>(
     Ok(())
 }
 
-fn site(
-    e: Element<'_>,
-    w: &Waiting<'_>,
-    context: &mut Context<'_>,
-    robot: &mut Robot,
-) -> Result<(), ImportError> {
+fn site(e: Element<'_>, w: &Waiting<'_>, context: &mut Context<'_>, robot: &mut Robot) -> Read<()> {
     let place = w.place.then(&context.compiler.place(e)?);
     let Some(name) = e.attribute("name") else {
         robot.report.drop("site", None);
@@ -219,7 +209,7 @@ fn body<'a>(
     class: Option<&'a str>,
     context: &Context<'a>,
     robot: &mut Robot,
-) -> Result<usize, ImportError> {
+) -> Read<usize> {
     let name = match e.attribute("name") {
         Some(n) if robot.frame(n).is_some() && robot.links.iter().any(|l| l == n) => {
             return Err(e.duplicate());
@@ -281,7 +271,7 @@ fn own_joints<'a>(
     class: Option<&'a str>,
     context: &Context<'a>,
     out: &mut Vec<OwnJoint<'a>>,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     for c in e.children() {
         match c.name() {
             "joint" | "freejoint" => out.push(OwnJoint {
@@ -301,7 +291,7 @@ fn own_joints<'a>(
 }
 
 /// The name of a joint: its own, or one made of its body's and its type.
-fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Result<String, ImportError> {
+fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Read<String> {
     match e.attribute("name") {
         Some(n) if robot.joints.iter().any(|j| j.id == n) => Err(e.duplicate()),
         Some(n) => Ok(n.to_owned()),
@@ -316,7 +306,7 @@ fn joint<'a>(
     place: RigidMotion,
     context: &Context<'a>,
     robot: &mut Robot,
-) -> Result<Part, ImportError> {
+) -> Read<Part> {
     let &OwnJoint {
         element: e,
         inner,
@@ -367,7 +357,7 @@ fn joint<'a>(
 }
 
 /// The direction of a hinge or a slide.
-fn axis(e: Element<'_>, look: &Lookup<'_>) -> Result<Vector, ImportError> {
+fn axis(e: Element<'_>, look: &Lookup<'_>) -> Read<Vector> {
     let axis = look.vector("axis", Z)?;
     if length(axis) >= 1e-9 {
         return Ok(axis);

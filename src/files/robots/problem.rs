@@ -1,8 +1,11 @@
 //! What can be wrong with a robot description, in words that name the element and the remedy.
 
-use crate::file::problem::ProblemKind;
+use crate::file::problem::{ImportError, ProblemKind};
 use itertools::Itertools;
 use thiserror::Error;
+
+/// What comes of reading a description, or the first problem with it.
+pub(crate) type Read<T> = Result<T, ImportError>;
 
 /// A problem in words of its own.
 pub(crate) fn whole(message: impl Into<String>) -> ProblemKind {

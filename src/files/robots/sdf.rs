@@ -8,12 +8,12 @@ pub(super) mod joints;
 pub(super) mod scene;
 pub(super) mod write;
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, plugin};
 use crate::robots::description::{Part, Robot};
+use crate::robots::problem::Read;
 use crate::robots::sdf::gearbox::gearbox;
 use crate::robots::sdf::include::Expanded;
 use crate::robots::sdf::joints::{joint, weld};
@@ -29,7 +29,7 @@ pub(crate) fn read(
     root: usize,
     inner: Reader<'_>,
     options: &Options,
-) -> Result<Robot, ImportError> {
+) -> Read<Robot> {
     let Expanded { old, scenery } = include::expand(document, root, inner)?;
     let root = document.element(root);
     let mut robot = Robot::new("robot");
@@ -85,7 +85,7 @@ fn models<'a>(
     nothing_else: bool,
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let of_worlds = root.named("world").flat_map(|w| w.named("model"));
     let models: Vec<Element<'_>> = root.named("model").chain(of_worlds).collect();
     let Some(first) = models.first() else {
@@ -134,7 +134,7 @@ fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
 }
 
 /// All joints, what couples them, and Drake's constraints.
-fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     let far = |p: &Placed<'_>| length(p.raw.translation);
     let size = scene.placed.values().map(far).fold(1e-3, f64::max);
     let is_gearbox = |e: &Element<'_>| e.attribute("type") == Some("gearbox");
@@ -163,7 +163,7 @@ fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Result<(), ImportError>
 }
 
 /// The pose child: numbers, what it is relative to, and in which unit.
-pub(crate) fn pose(e: Element<'_>) -> Result<(RigidMotion, Option<&str>), ImportError> {
+pub(crate) fn pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
     let Some(p) = e.child("pose") else {
         return Ok((RigidMotion::IDENTITY, None));
     };
@@ -200,7 +200,7 @@ fn model<'a>(
     scope: &str,
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let own = own_frame(m, outer, scope, scene)?;
     let is_static = m.child("static");
     let is_static = is_static.is_some_and(|s| ["true", "1"].contains(&s.text()));
@@ -239,7 +239,7 @@ fn own_frame<'a>(
     outer: &str,
     scope: &str,
     scene: &mut SdfScene<'a>,
-) -> Result<String, ImportError> {
+) -> Read<String> {
     let (raw, relative) = pose(m)?;
     let own = format!("{scope}__model__");
     let relative_to = match relative {
@@ -269,7 +269,7 @@ fn link<'a>(
     is_static: bool,
     scene: &mut SdfScene<'a>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     e.room("links", robot.links.len())?;
     let name = format!("{scope}{}", e.required("name")?);
     let (raw, relative) = pose(e)?;
@@ -309,7 +309,7 @@ pub(crate) fn named_place<'a>(
     own: &str,
     shared: bool,
     scene: &mut SdfScene<'a>,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let mut name = format!("{scope}{}", e.required("name")?);
     let (raw, relative) = pose(e)?;
     let attached_to = if e.name() == "joint" {

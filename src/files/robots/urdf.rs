@@ -4,13 +4,12 @@ pub(super) mod fix;
 mod gazebo;
 pub(super) mod write;
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, couple, leave_out, named};
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
-use crate::robots::problem::{bad_value, known, unknown_name};
+use crate::robots::problem::{Read, bad_value, known, unknown_name};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::{Document, Element};
 
@@ -24,7 +23,7 @@ pub(crate) fn read(
     root: usize,
     _: Reader<'_>,
     _: &Options,
-) -> Result<Robot, ImportError> {
+) -> Read<Robot> {
     let root = document.element(root);
     let mut robot = Robot::new(root.attribute("name").unwrap_or("robot"));
     for e in root.named("link") {
@@ -74,7 +73,7 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-fn link(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let name = e.required("name")?;
     e.room("links", robot.links.len())?;
     if robot.frame(name).is_some() {
@@ -118,7 +117,7 @@ fn transmission(e: Element<'_>, robot: &mut Robot) {
 }
 
 /// Reads the joints that a controller makes follow others: `<param name="mimic">`.
-fn controlled(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn controlled(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     for j in e.named("joint") {
         let param = |name: &str| {
             let mut all = j.named("param");
@@ -142,7 +141,7 @@ fn has_ends(e: Element<'_>) -> bool {
 
 /// Reads `<constraint name type>` with a link, a place and an axis on either side: `parent`, `parent_origin`, `parent_axis`, and
 /// those of the child.
-fn constraint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let links = [end(e, "parent", robot)?, end(e, "child", robot)?];
     if links[0] == links[1] {
         return Err(same_link(e));
@@ -188,7 +187,7 @@ fn closing_type(word: &str) -> Option<JointType> {
     })
 }
 
-pub(crate) fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
+pub(crate) fn origin(e: Element<'_>) -> Read<RigidMotion> {
     let Some(o) = e.child("origin") else {
         return Ok(RigidMotion::IDENTITY);
     };
@@ -196,7 +195,7 @@ pub(crate) fn origin(e: Element<'_>) -> Result<RigidMotion, ImportError> {
 }
 
 /// The place that an element with `xyz` and `rpy` gives.
-fn place(o: Element<'_>) -> Result<RigidMotion, ImportError> {
+fn place(o: Element<'_>) -> Read<RigidMotion> {
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
         return Ok(RigidMotion::quaternion(
             o.vector("xyz", [0.0; 3])?,
@@ -210,13 +209,13 @@ fn place(o: Element<'_>) -> Result<RigidMotion, ImportError> {
 }
 
 /// The link that a child element such as `<parent link="..."/>` names.
-fn end(e: Element<'_>, tag: &str, robot: &Robot) -> Result<usize, ImportError> {
+fn end(e: Element<'_>, tag: &str, robot: &Robot) -> Read<usize> {
     let missing = || e.missing(&format!("<{tag} link=\"...\"/>"));
     named_link(e, e.child(tag).ok_or_else(missing)?, robot)
 }
 
 /// The link that `c`, a child of `e`, names.
-fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Result<usize, ImportError> {
+fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Read<usize> {
     let name = c.required("link")?;
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
         let known = known("links", &robot.links);
@@ -224,12 +223,12 @@ fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Result<usize, Im
     })
 }
 
-fn axis(e: Element<'_>) -> Result<Vector, ImportError> {
+fn axis(e: Element<'_>) -> Read<Vector> {
     e.child("axis").map_or(Ok(X), |a| direction(e, a))
 }
 
 /// The direction that an element of `e` gives, x where it says none.
-fn direction(e: Element<'_>, a: Element<'_>) -> Result<Vector, ImportError> {
+fn direction(e: Element<'_>, a: Element<'_>) -> Read<Vector> {
     let v = a.vector("xyz", X)?;
     if length(v) < 1e-9 {
         let (found, want) = (
@@ -241,7 +240,7 @@ fn direction(e: Element<'_>, a: Element<'_>) -> Result<Vector, ImportError> {
     Ok(v)
 }
 
-fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let name = e.required("name")?;
     if robot.joints.iter().any(|j| j.id == name) {
         return Err(e.duplicate());
@@ -289,7 +288,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
 }
 
 /// The limits of a joint, where it has any.
-fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {
+fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
     // What is beyond all numbers that are read, 1e16 say, is no limit.
     let one = |k| match e.attribute(k).map(str::parse::<f64>) {
         Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
@@ -301,7 +300,7 @@ fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {
 }
 
 /// `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/><axis/></loop_joint>`.
-fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let name = e.required("name")?;
     // A vendor prints its sample with two <link1>: the second is meant to be <link2>.
     let ends = e

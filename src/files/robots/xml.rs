@@ -1,12 +1,12 @@
 //! XML as a flat arena with the place of every element and attribute, bounded in size, depth and number.
 
-mod numbers;
+mod element;
 
-use crate::file::problem::{ImportError, ProblemKind};
+pub(crate) use element::Element;
+
+use crate::file::problem::ProblemKind;
 use crate::geom::vector::Vector;
-use crate::robots::problem::{
-    missing, too_deep, too_large, too_many, unknown_name, unknown_word, unsupported, whole,
-};
+use crate::robots::problem::{Read, too_deep, too_large, too_many, whole};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::ops::Range;
@@ -17,8 +17,6 @@ pub(crate) const MAX_BYTES: usize = 64 << 20;
 pub(crate) const MAX_DEPTH: usize = 4000;
 /// Most elements.
 pub(crate) const MAX_ELEMENTS: usize = 500_000;
-/// Most links, and most joints, of a robot.
-const MAX_PARTS: usize = 10_000;
 /// Most attributes of one element, and of all together.
 const MAX_ATTRIBUTES: (usize, usize) = (256, 1_000_000);
 
@@ -131,15 +129,8 @@ pub(crate) struct Document {
     pub(super) nodes: Vec<Node>,
 }
 
-/// An element.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Element<'a> {
-    pub(super) document: &'a Document,
-    pub(super) id: usize,
-}
-
 /// Bytes as text.
-pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Result<String, ImportError> {
+pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Read<String> {
     if bytes.len() > MAX_BYTES {
         return Err(too_large(bytes.len(), MAX_BYTES).at(name, "", None));
     }
@@ -152,7 +143,7 @@ pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Result<String, ImportError> {
 
 impl Document {
     /// Reads a file into the arena; gives its root element.
-    pub(crate) fn read(&mut self, name: &str, text: String) -> Result<usize, ImportError> {
+    pub(crate) fn read(&mut self, name: &str, text: String) -> Read<usize> {
         let source = self.sources.len();
         let root = parse(&text, source, &mut self.nodes).map_err(|(problem, at)| {
             let at = (0..=at.min(text.len()))
@@ -317,115 +308,4 @@ fn node(
     }
     let node = Node::line(tag.name().as_ref(), source, span);
     Ok(Node { attributes, ..node })
-}
-
-impl<'a> Element<'a> {
-    pub(super) fn node(self) -> &'a Node {
-        &self.document.nodes[self.id]
-    }
-
-    pub(crate) fn name(self) -> &'a str {
-        &self.node().name
-    }
-
-    /// Where the value of an attribute stands in the file.
-    pub(super) fn value_span(self, name: &str) -> Option<Range<usize>> {
-        let found = self.node().find(name)?;
-        (found.span != self.node().span).then(|| found.span.clone())
-    }
-
-    pub(crate) fn text(self) -> &'a str {
-        self.node().text.trim()
-    }
-
-    pub(crate) fn source(self) -> &'a str {
-        &self.document.sources[self.node().source].name
-    }
-
-    pub(crate) fn children(self) -> impl DoubleEndedIterator<Item = Element<'a>> {
-        let all = self.node().children.iter();
-        all.map(move |&id| self.document.element(id))
-    }
-
-    pub(crate) fn named(self, name: &str) -> impl Iterator<Item = Element<'a>> {
-        self.children().filter(move |c| c.name() == name)
-    }
-
-    pub(crate) fn child(self, name: &str) -> Option<Element<'a>> {
-        self.children().find(|c| c.name() == name)
-    }
-
-    pub(crate) fn attribute(self, name: &str) -> Option<&'a str> {
-        self.node().find(name).map(|a| a.value.as_str())
-    }
-
-    /// Names and values of all attributes.
-    pub(crate) fn attributes(self) -> impl Iterator<Item = (&'a str, &'a str)> {
-        let all = self.node().attributes.iter();
-        all.map(|a| (a.name.as_str(), a.value.as_str()))
-    }
-
-    /// How the element is called in messages.
-    pub(crate) fn label(self) -> String {
-        match self.attribute("name") {
-            Some(n) => format!("{} \"{n}\"", self.name()),
-            None => format!("<{}>", self.name()),
-        }
-    }
-
-    /// A problem with the element, or with one of its attributes.
-    pub(crate) fn fail(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
-        let node = self.node();
-        let found = attribute.and_then(|name| node.find(name));
-        let span = found.map_or(&node.span, |a| &a.span).clone();
-        let source = &self.document.sources[node.source];
-        problem.at(&source.name, &source.text, Some(span))
-    }
-
-    /// A part that cannot be read.
-    pub(crate) fn unsupported(self, why: &str, remedy: &str) -> ImportError {
-        self.fail(None, unsupported(&self.label(), why, remedy))
-    }
-
-    /// A word that is none of those known.
-    pub(crate) fn unknown_word(self, what: &str, word: &str, known: &str) -> ImportError {
-        self.fail(Some(what), unknown_word(&self.label(), what, word, known))
-    }
-
-    /// Refuses one more of `what` where there are too many already.
-    pub(crate) fn room(self, what: &str, count: usize) -> Result<(), ImportError> {
-        let limit = MAX_PARTS;
-        if count < limit {
-            return Ok(());
-        }
-        Err(self.fail(None, too_many(what, limit)))
-    }
-
-    /// The attribute that must be there.
-    pub(crate) fn required(self, name: &str) -> Result<&'a str, ImportError> {
-        let found = self.attribute(name).filter(|v| !v.trim().is_empty());
-        found.ok_or_else(|| self.missing(&format!("attribute {name}")))
-    }
-
-    /// The problem that something is not there.
-    pub(crate) fn missing(self, what: &str) -> ImportError {
-        self.fail(None, missing(&self.label(), what))
-    }
-
-    /// The problem that the name is there twice.
-    pub(crate) fn duplicate(self) -> ImportError {
-        let message = format!("{} is there twice; names must be unique", self.label());
-        self.fail(Some("name"), whole(message))
-    }
-
-    /// The problem that an attribute, or the text, names what there is not.
-    pub(crate) fn unknown_name(
-        self,
-        key: &str,
-        what: &str,
-        name: &str,
-        known: &str,
-    ) -> ImportError {
-        self.fail(Some(key), unknown_name(&self.label(), what, name, known))
-    }
 }

@@ -1,8 +1,8 @@
 //! Text laid out by tabs, a label in a line and its values one tab deeper, as elements: a label is one without attributes, and
 //! its text the lines below it that have nothing below them.
 
-use crate::file::problem::{ImportError, ProblemKind};
-use crate::robots::problem::{too_deep, too_many, whole};
+use crate::file::problem::ProblemKind;
+use crate::robots::problem::{Read, too_deep, too_many, whole};
 use crate::robots::xml::{Document, MAX_DEPTH, MAX_ELEMENTS, Node, Source};
 
 impl Document {
@@ -14,7 +14,7 @@ impl Document {
         text: String,
         from: usize,
         ends: &str,
-    ) -> Result<usize, ImportError> {
+    ) -> Read<usize> {
         let source = self.sources.len();
         let root = self.nodes.len();
         let nodes = outline(&text, source, root, from, ends)

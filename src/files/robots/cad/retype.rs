@@ -11,7 +11,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::problem::unsupported;
+use crate::robots::problem::{Read, unsupported};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -144,10 +144,7 @@ fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<Simple> {
 ///
 /// # Errors
 /// Where there is no such type, or a coupling is to be left out.
-pub(crate) fn retype(
-    imported: &Imported,
-    releases: &[(Release, String)],
-) -> Result<Vec<u8>, ImportError> {
+pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Read<Vec<u8>> {
     let origin = &imported.origin;
     let mut edits = Edits::new(origin);
     for (joint, more) in by_joint(origin, releases)? {
@@ -188,7 +185,7 @@ fn cannot(part: &Part, element: Element<'_>, why: String) -> ImportError {
 fn by_joint(
     origin: &Origin,
     releases: &[(Release, String)],
-) -> Result<BTreeMap<JointId, Vec<(bool, Vector)>>, ImportError> {
+) -> Read<BTreeMap<JointId, Vec<(bool, Vector)>>> {
     let mut out: BTreeMap<JointId, Vec<(bool, Vector)>> = BTreeMap::new();
     for (release, _) in releases {
         match *release {
@@ -215,7 +212,7 @@ fn enumerated(
     property: Element<'_>,
     simple: Simple,
     edits: &mut Edits<'_>,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let word = simple.freecad();
     let list = property.child("CustomEnumList");
     let mut words = list.iter().flat_map(|l| l.named("Enum"));

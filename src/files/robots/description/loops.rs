@@ -6,12 +6,12 @@
 //!   and `joint_type: [...]` of the joints that are not what the URDF says;
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
-use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::problem::ProblemKind;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::{known, too_large, unknown_name, unknown_word, whole};
+use crate::robots::problem::{Read, known, too_large, unknown_name, unknown_word, whole};
 use crate::robots::warning::Reader;
 use serde_json::{Map, Value};
 
@@ -20,7 +20,7 @@ const MAX_BYTES: usize = 1 << 20;
 const TYPES: &str = "revolute, prismatic, cylindrical, spherical (3d), fixed (6d)";
 
 /// Adds the closures that the file names.
-pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Result<(), ImportError> {
+pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
     let mut added = || {
         if bytes.len() > MAX_BYTES {
             return Err(too_large(bytes.len(), MAX_BYTES));

@@ -1,6 +1,5 @@
 //! Joints of FreeCAD's Assembly workbench as connections.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{cross, length};
 use crate::robots::cad::holds::Holds;
@@ -8,6 +7,7 @@ use crate::robots::fcstd::brep::{ShapeKind, kind};
 use crate::robots::fcstd::distance::{Distance, by_name, distance, rack};
 use crate::robots::fcstd::objects::Object;
 use crate::robots::fcstd::reference::Reference;
+use crate::robots::problem::Read;
 
 /// Reads the text of a member of the archive; none where it is not there or no text.
 pub(crate) type Shapes<'a> = &'a dyn Fn(&str) -> Option<String>;
@@ -28,10 +28,7 @@ pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
 ///
 /// # Errors
 /// Where a number of a placement is none.
-pub(crate) fn frames(
-    joint: &Object<'_>,
-    ends: &[Reference<'_>; 2],
-) -> Result<[RigidMotion; 2], ImportError> {
+pub(crate) fn frames(joint: &Object<'_>, ends: &[Reference<'_>; 2]) -> Read<[RigidMotion; 2]> {
     let mut out = [RigidMotion::IDENTITY; 2];
     for (i, end) in ends.iter().enumerate() {
         let own = joint.placement(&format!("Placement{}", i + 1))?;
@@ -51,10 +48,9 @@ pub(crate) fn held(
     ends: &[Reference<'_>; 2],
     slides: &[Slide<'_>],
     shapes: Shapes<'_>,
-) -> Result<Option<Held>, ImportError> {
+) -> Read<Option<Held>> {
     let frames = frames(joint, ends)?;
-    let figure =
-        |name: &str| -> Result<f64, ImportError> { Ok(joint.number(name)?.unwrap_or(0.0)) };
+    let figure = |name: &str| -> Read<f64> { Ok(joint.number(name)?.unwrap_or(0.0)) };
     let plain = |holds| Held {
         holds,
         frames,

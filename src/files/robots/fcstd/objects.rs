@@ -1,8 +1,7 @@
 //! The objects of a FreeCAD document and their properties.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::problem::bad_value;
+use crate::robots::problem::{Read, bad_value};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -29,7 +28,7 @@ pub(crate) struct Objects<'a> {
 
 impl<'a> Objects<'a> {
     /// Those below the root element of `Document.xml`.
-    pub(crate) fn of(root: Element<'a>) -> Result<Objects<'a>, ImportError> {
+    pub(crate) fn of(root: Element<'a>) -> Read<Objects<'a>> {
         let data = root.child("ObjectData");
         let data: BTreeMap<&str, Element<'a>> = data
             .iter()
@@ -104,7 +103,7 @@ impl<'a> Object<'a> {
         self.text(name).map(|v| v == "true")
     }
 
-    pub(crate) fn number(&self, name: &str) -> Result<Option<f64>, ImportError> {
+    pub(crate) fn number(&self, name: &str) -> Read<Option<f64>> {
         match self.value(name) {
             Some(e) => Ok(e.numbers::<1>("value")?.map(|[x]| x)),
             None => Ok(None),
@@ -131,11 +130,11 @@ impl<'a> Object<'a> {
     ///
     /// # Errors
     /// Where numbers are no numbers, or the quaternion is none.
-    pub(crate) fn placement(&self, name: &str) -> Result<Option<RigidMotion>, ImportError> {
+    pub(crate) fn placement(&self, name: &str) -> Read<Option<RigidMotion>> {
         let Some(e) = self.value(name) else {
             return Ok(None);
         };
-        let number = |k: &str| -> Result<f64, ImportError> {
+        let number = |k: &str| -> Read<f64> {
             e.required(k)?;
             Ok(e.numbers::<1>(k)?.map_or(0.0, |[x]| x))
         };
@@ -151,7 +150,7 @@ impl<'a> Object<'a> {
     }
 
     /// The word that an enumeration has, by the list that stands beside its index.
-    pub(crate) fn word(&self, name: &str) -> Result<Option<&'a str>, ImportError> {
+    pub(crate) fn word(&self, name: &str) -> Read<Option<&'a str>> {
         let Some(property) = self.property(name) else {
             return Ok(None);
         };

@@ -1,8 +1,8 @@
 //! What a joint refers to: the part that moves, the frame's place in it, and the element of its shape.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::fcstd::objects::{Object, Objects};
+use crate::robots::problem::Read;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ pub(crate) fn reference<'a>(
     which: &str,
     assembly: &Object<'a>,
     documents: &Documents<'a>,
-) -> Result<Result<Reference<'a>, Broken>, ImportError> {
+) -> Read<Result<Reference<'a>, Broken>> {
     let Some(link) = joint.property(which).and_then(|p| p.child("XLink")) else {
         return Ok(Err(format!("{which} is empty")));
     };
@@ -122,7 +122,7 @@ fn part<'a, 'n>(
     which: &str,
     assembly: &Object<'a>,
     main: &Objects<'a>,
-) -> Result<Result<PartFound<'a, 'n>, Broken>, ImportError> {
+) -> Read<Result<PartFound<'a, 'n>, Broken>> {
     let mut above = RigidMotion::IDENTITY;
     let mut array = false;
     let mut rest = names;
@@ -150,7 +150,7 @@ fn part<'a, 'n>(
 }
 
 /// The place of an object in what it is in.
-fn placed(o: &Object<'_>) -> Result<RigidMotion, ImportError> {
+fn placed(o: &Object<'_>) -> Read<RigidMotion> {
     Ok(o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY))
 }
 
@@ -168,7 +168,7 @@ fn follow<'a>(
     which: &str,
     assembly: &Object<'a>,
     documents: &Documents<'a>,
-) -> Result<Result<Reference<'a>, Broken>, ImportError> {
+) -> Read<Result<Reference<'a>, Broken>> {
     let PartFound { part, above, rest } = match part(names, which, assembly, &documents.main)? {
         Ok(found) => found,
         Err(broken) => return Ok(Err(broken)),
@@ -243,7 +243,7 @@ fn resolved<'a>(
     mut at: ObjectInFile<'a>,
     documents: &Documents<'a>,
     out: &mut Reference<'a>,
-) -> Result<ObjectInFile<'a>, ImportError> {
+) -> Read<ObjectInFile<'a>> {
     // A chain of links is short; a ring of them is none.
     for _ in 0..16 {
         let Some((in_file, name)) = at.object.linked() else {

@@ -1,10 +1,9 @@
 //! What the sections of an MJCF file share: settings, default classes and sites.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::problem::bad_value;
+use crate::robots::problem::{Read, bad_value};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -25,7 +24,7 @@ pub(super) struct Context<'a> {
     pub(crate) sites: BTreeMap<String, (usize, RigidMotion)>,
 }
 
-pub(super) fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
+pub(super) fn compiler(root: Element<'_>) -> Read<Compiler> {
     let degree = std::f64::consts::PI / 180.0;
     let mut out = Compiler {
         angle: degree,
@@ -56,7 +55,7 @@ pub(super) fn compiler(root: Element<'_>) -> Result<Compiler, ImportError> {
 
 impl Compiler {
     /// The place that `pos` and one of the five ways to give an orientation stand for.
-    pub(super) fn place(&self, e: Element<'_>) -> Result<RigidMotion, ImportError> {
+    pub(super) fn place(&self, e: Element<'_>) -> Read<RigidMotion> {
         Ok(RigidMotion {
             translation: e.vector("pos", [0.0; 3])?,
             ..self.turned(e)?
@@ -64,7 +63,7 @@ impl Compiler {
     }
 
     /// The turn that one of the five ways stands for.
-    pub(super) fn turned(&self, e: Element<'_>) -> Result<RigidMotion, ImportError> {
+    pub(super) fn turned(&self, e: Element<'_>) -> Read<RigidMotion> {
         let zero = |name: &str| {
             let want = "give a direction or quaternion that is not zero";
             let found = e.attribute(name).unwrap_or("");

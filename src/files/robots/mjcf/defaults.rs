@@ -1,8 +1,7 @@
 //! Default classes.
 
-use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
-use crate::robots::problem::{known, whole};
+use crate::robots::problem::{Read, known, whole};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -19,7 +18,7 @@ pub(crate) struct Lookup<'a> {
 }
 
 impl<'a> Defaults<'a> {
-    pub(crate) fn read(root: Element<'a>) -> Result<Defaults<'a>, ImportError> {
+    pub(crate) fn read(root: Element<'a>) -> Read<Defaults<'a>> {
         let mut classes: BTreeMap<&str, (Option<&str>, Vec<Element<'_>>)> = BTreeMap::new();
         let mut stack: Vec<(Element<'_>, Option<&str>)> =
             root.named("default").map(|d| (d, None)).collect();
@@ -49,7 +48,7 @@ impl<'a> Defaults<'a> {
         e: Element<'a>,
         tag: &str,
         childclass: Option<&'a str>,
-    ) -> Result<Lookup<'a>, ImportError> {
+    ) -> Read<Lookup<'a>> {
         let given = e.attribute("class").or(childclass);
         if let Some(c) = given
             && !self.classes.contains_key(c)
@@ -85,17 +84,14 @@ impl<'a> Lookup<'a> {
             .find_map(|e| e.attribute(name).map(|v| (*e, v)))
     }
 
-    pub(crate) fn numbers<const N: usize>(
-        &self,
-        name: &str,
-    ) -> Result<Option<[f64; N]>, ImportError> {
+    pub(crate) fn numbers<const N: usize>(&self, name: &str) -> Read<Option<[f64; N]>> {
         match self.attribute(name) {
             Some((e, _)) => e.numbers::<N>(name),
             None => Ok(None),
         }
     }
 
-    pub(crate) fn vector(&self, name: &str, default: Vector) -> Result<Vector, ImportError> {
+    pub(crate) fn vector(&self, name: &str, default: Vector) -> Read<Vector> {
         Ok(self.numbers::<3>(name)?.unwrap_or(default))
     }
 }

@@ -1,12 +1,11 @@
 //! Equality constraints: the loops and couplings of MJCF.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::displacement;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::problem::{bad_value, known};
+use crate::robots::problem::{Read, bad_value, known};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -15,7 +14,7 @@ pub(crate) fn read(
     root: Element<'_>,
     context: &Context<'_>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     for (i, e) in section.children().enumerate() {
         e.room("joints", robot.joints.len())?;
         let look = context.defaults.of(e, "equality", None)?;
@@ -68,7 +67,7 @@ pub(crate) fn read(
 
 type End = (usize, RigidMotion);
 
-fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Result<[End; 2], ImportError> {
+fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> {
     if e.attribute("site1").is_some() || e.attribute("site2").is_some() {
         let site = |key: &'static str| {
             let name = e.required(key)?;
@@ -120,7 +119,7 @@ fn closing(
     ends: [End; 2],
     joint_type: JointType,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let mut part = Part::closing(e, id, ends, joint_type)?;
     part.comment = Some(format!("closes a loop: <{}>", e.name()));
     robot.report.map(e.name());
@@ -128,7 +127,7 @@ fn closing(
     Ok(())
 }
 
-fn coupling(e: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let mut names = vec![e.required("joint1")?];
     names.extend(e.attribute("joint2"));
     for (name, key) in names.iter().zip(["joint1", "joint2"]) {
@@ -173,7 +172,7 @@ fn hold(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
 
 /// An equality of the lengths of tendons. That of a `<fixed>` tendon is a sum of joint values, each times a coefficient: the equality
 /// is a linear row between these joints.
-fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
     let first = length(e, "tendon1", root)?;
     let second = match e.attribute("tendon2") {
         Some(_) => length(e, "tendon2", root)?,
@@ -210,7 +209,7 @@ fn length<'a>(
     e: Element<'a>,
     key: &'static str,
     root: Element<'a>,
-) -> Result<Option<BTreeMap<&'a str, f64>>, ImportError> {
+) -> Read<Option<BTreeMap<&'a str, f64>>> {
     let name = e.required(key)?;
     let all = root
         .named("tendon")
@@ -238,7 +237,7 @@ fn comment(joint: &str, what: &str, robot: &mut Robot) {
 }
 
 /// The five coefficients of `polycoef`, lowest first; those left out are as MuJoCo has them, 0 1 0 0 0.
-fn polynomial(e: Element<'_>) -> Result<[f64; 5], ImportError> {
+fn polynomial(e: Element<'_>) -> Read<[f64; 5]> {
     let mut out = [0.0, 1.0, 0.0, 0.0, 0.0];
     let Some(text) = e.attribute("polycoef") else {
         return Ok(out);

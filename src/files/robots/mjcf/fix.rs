@@ -1,7 +1,6 @@
 //! Joints of one more freedom in an MJCF file: `<joint>`s added to a body behind its own, and bodies put in between what a
 //! `<connect>` or `<weld>` holds together. Keyframes get the numbers of the new joints.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
 use crate::robots::description::Part;
@@ -12,6 +11,7 @@ use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::mjcf::weights::{self, Weight};
+use crate::robots::problem::Read;
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -22,11 +22,7 @@ const HEAVY: f64 = 10.0;
 const TIMES: f64 = 10.0;
 
 /// Gives joints freedoms.
-pub(crate) fn free(
-    origin: &Origin,
-    all: &[Freeing<'_>],
-    edits: &mut Edits<'_>,
-) -> Result<(), ImportError> {
+pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let root = origin.element(origin.root);
     let mut file = MjcfFile {
         origin,
@@ -59,7 +55,7 @@ pub(crate) fn uncouple(
     element: usize,
     why: &str,
     edits: &mut Edits<'_>,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let e = origin.element(element);
     edits.set(e, "active", "false")?;
     edits.after(e, &[format!("<!-- {why} -->")]);
@@ -106,7 +102,7 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// What the classes around say of joints that is nothing to a new one is taken back.
-    fn neutral(&self, around: Element<'a>) -> Result<String, ImportError> {
+    fn neutral(&self, around: Element<'a>) -> Read<String> {
         let (mut at, mut class) = (Some(around.id), None);
         while let (Some(id), None) = (at, class) {
             class = self.origin.element(id).attribute("childclass");
@@ -171,7 +167,7 @@ impl<'a> MjcfFile<'a> {
         around: Element<'a>,
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
-    ) -> Result<Vec<String>, ImportError> {
+    ) -> Read<Vec<String>> {
         let neutral = self.neutral(around)?;
         let (mut out, inside) = (Vec::new(), frame.inverse());
         for (slides, direction, why) in freed {
@@ -194,12 +190,7 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// Behind the joints of a body.
-    fn in_body(
-        &mut self,
-        e: Element<'a>,
-        freed: Freed<'_>,
-        edits: &mut Edits<'_>,
-    ) -> Result<(), ImportError> {
+    fn in_body(&mut self, e: Element<'a>, freed: Freed<'_>, edits: &mut Edits<'_>) -> Read<()> {
         let body = self.body(e.id);
         let own = self.origin.robot.joints.iter().rev();
         let own = own.filter_map(|p| Some((p, p.element?)));
@@ -243,7 +234,7 @@ impl<'a> MjcfFile<'a> {
         part: &Part,
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
-    ) -> Result<(), ImportError> {
+    ) -> Read<()> {
         let (robot, one) = (&self.origin.robot, part.links[0]);
         let body = if robot.world == Some(one) {
             self.named("worldbody", None)
@@ -272,7 +263,7 @@ impl<'a> MjcfFile<'a> {
         site: &str,
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
-    ) -> Result<(), ImportError> {
+    ) -> Read<()> {
         let found = self.named("site", Some(site)).ok_or_else(|| {
             e.unsupported("its first site has no element", "choose another (--at)")
         })?;
@@ -316,7 +307,7 @@ impl<'a> MjcfFile<'a> {
     }
 
     /// Zeros for the new joints in the positions and speeds of keyframes.
-    fn keyframes(&self, edits: &mut Edits<'_>) -> Result<(), ImportError> {
+    fn keyframes(&self, edits: &mut Edits<'_>) -> Read<()> {
         let root = self.origin.element(self.origin.root);
         let keys = root
             .named("keyframe")

@@ -1,7 +1,6 @@
 //! Includes: the children of another file's root in place of an element.
 
-use crate::file::problem::ImportError;
-use crate::robots::problem::unsupported;
+use crate::robots::problem::{Read, unsupported};
 use crate::robots::warning::Reader;
 use crate::robots::xml::{self, Document, Element};
 use std::path::{Component, Path};
@@ -16,7 +15,7 @@ pub(super) fn expand(
     root: usize,
     read: Reader<'_>,
     outside: bool,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let mut count = 0;
     let names = vec![document.element(root).source().to_owned()];
     let files = Files { read, outside };
@@ -46,7 +45,7 @@ fn below(
     open: &[String],
     count: &mut usize,
     files: &Files<'_>,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let mut stack = vec![root];
     while let Some(id) = stack.pop() {
         let children = std::mem::take(&mut document.nodes[id].children);
@@ -76,7 +75,7 @@ fn included(
     open: &[String],
     count: usize,
     files: &Files<'_>,
-) -> Result<usize, ImportError> {
+) -> Read<usize> {
     let e = document.element(id);
     let file = e.required("file")?.to_owned();
     let refuse = |e: Element<'_>, why: &str, remedy: &str| {

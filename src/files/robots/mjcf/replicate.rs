@@ -1,13 +1,12 @@
 //! `<replicate>`: what it holds, again and again, each time moved on and with a number behind its names.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::mjcf::context::{Compiler, compiler};
-use crate::robots::problem::too_many;
+use crate::robots::problem::{Read, too_many};
 use crate::robots::xml::{Document, MAX_ELEMENTS};
 
 /// Puts frames with copies in place of all `<replicate>` elements below `root`, those within others first.
-pub(super) fn expand(document: &mut Document, root: usize) -> Result<(), ImportError> {
+pub(super) fn expand(document: &mut Document, root: usize) -> Read<()> {
     // Settings may be wrong, which is told where they are needed.
     if !document.nodes.iter().any(|n| n.is_called("replicate")) {
         return Ok(());
@@ -34,11 +33,7 @@ pub(super) fn expand(document: &mut Document, root: usize) -> Result<(), ImportE
     Ok(())
 }
 
-fn copies(
-    document: &mut Document,
-    id: usize,
-    compiler: &Compiler,
-) -> Result<Vec<usize>, ImportError> {
+fn copies(document: &mut Document, id: usize, compiler: &Compiler) -> Read<Vec<usize>> {
     let e = document.element(id);
     let count = e.numbers::<1>("count")?;
     let [count] = count.ok_or_else(|| e.missing("attribute count"))?;
@@ -80,11 +75,7 @@ fn copies(
     Ok(out)
 }
 
-fn push(
-    document: &mut Document,
-    at: usize,
-    node: crate::robots::xml::Node,
-) -> Result<usize, ImportError> {
+fn push(document: &mut Document, at: usize, node: crate::robots::xml::Node) -> Read<usize> {
     let id = document.nodes.len();
     if id >= MAX_ELEMENTS {
         let problem = too_many("elements", MAX_ELEMENTS);
@@ -95,7 +86,7 @@ fn push(
 }
 
 /// A copy of an element and all it holds, its names with an end.
-fn copied(document: &mut Document, id: usize, suffix: &str) -> Result<usize, ImportError> {
+fn copied(document: &mut Document, id: usize, suffix: &str) -> Read<usize> {
     let node = document.nodes[id].named_on(suffix);
     let children = node.children.clone();
     let copy = push(document, id, node)?;

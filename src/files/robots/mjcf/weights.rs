@@ -5,22 +5,19 @@ mod weight;
 
 pub(super) use weight::Weight;
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::description::Robot;
 use crate::robots::mjcf::Waiting;
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Defaults;
+use crate::robots::problem::Read;
 use crate::robots::xml::Element;
 use shape::weight_of_shape;
 use std::collections::BTreeMap;
 use weight::{Settings, together};
 
 /// Returns what the links weigh, in their frames; the robot is that of the same document.
-pub(super) fn read(
-    root: Element<'_>,
-    robot: &Robot,
-) -> Result<BTreeMap<usize, Weight>, ImportError> {
+pub(super) fn read(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Weight>> {
     let defaults = Defaults::read(root)?;
     let settings = Settings::read(root)?;
     let mut stated = BTreeMap::new();
@@ -83,7 +80,7 @@ fn weights(
 }
 
 /// Returns what an `<inertial>` says.
-fn inertial(e: Element<'_>, compiler: &Compiler) -> Result<Weight, ImportError> {
+fn inertial(e: Element<'_>, compiler: &Compiler) -> Read<Weight> {
     let mut tensor = [0.0; 6];
     if let Some(d) = e.numbers::<3>("diaginertia")? {
         tensor[..3].copy_from_slice(&d);

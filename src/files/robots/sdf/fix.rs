@@ -1,21 +1,17 @@
 //! Joints of one more freedom in an SDF file: a link and a joint put in between a joint and its child.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::description::Part;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
+use crate::robots::problem::Read;
 use crate::robots::sdf::include::is_old;
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms.
-pub(crate) fn free(
-    origin: &Origin,
-    all: &[Freeing<'_>],
-    edits: &mut Edits<'_>,
-) -> Result<(), ImportError> {
+pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let light = Light::in_description(&origin.document).sdf();
     for &(part, e, freed) in all {
         let remedy = "choose another joint (--at)";
@@ -74,7 +70,7 @@ fn axes_frame(
     model: Element<'_>,
     part: &Part,
     e: Element<'_>,
-) -> Result<RigidMotion, ImportError> {
+) -> Read<RigidMotion> {
     // A joint with two axes that are not square is two parts; its child hangs on the last.
     let mut parts = origin.robot.joints.iter().rev();
     let last = parts.find(|p| p.element == Some(e.id)).unwrap_or(part);

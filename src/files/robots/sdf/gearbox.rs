@@ -1,10 +1,10 @@
 //! `<joint type="gearbox">`: no joint of its own, but a ratio of the turns of two hinges on one body.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{cross, dot, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Ratio, Robot};
+use crate::robots::problem::Read;
 use crate::robots::sdf::joints::axis;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;
@@ -16,7 +16,7 @@ pub(crate) fn gearbox(
     scope: &str,
     scene: &SdfScene<'_>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let name = format!("{scope}{}", e.required("name")?);
     let world = of_joint(scene, e, &name).unwrap_or(RigidMotion::IDENTITY);
     let times = match e.child("gearbox_ratio") {

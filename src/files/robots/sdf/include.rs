@@ -1,7 +1,7 @@
 //! `<include>`: the model of another file in place of the element, under the name and at the place that it gives.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::unsupported;
+use crate::robots::problem::{Read, unsupported};
 use crate::robots::warning::Reader;
 use crate::robots::xml::{self, Document, Element};
 
@@ -20,11 +20,7 @@ pub(super) struct Expanded {
 }
 
 /// Puts models in place of all `<include>` elements below `root`.
-pub(super) fn expand(
-    document: &mut Document,
-    root: usize,
-    read: Reader<'_>,
-) -> Result<Expanded, ImportError> {
+pub(super) fn expand(document: &mut Document, root: usize, read: Reader<'_>) -> Read<Expanded> {
     let mut old = vec![is_old(document.element(root))];
     let mut scenery = Vec::new();
     let mut count = 0;
@@ -73,7 +69,7 @@ fn included(
     count: usize,
     read: Reader<'_>,
     old: &mut Vec<bool>,
-) -> Result<(Option<usize>, String), ImportError> {
+) -> Read<(Option<usize>, String)> {
     let e = document.element(id);
     let uri = e.child("uri").map(|u| u.text().to_owned());
     let Some(uri) = uri.filter(|u| !u.is_empty()) else {
@@ -113,12 +109,7 @@ fn refuse(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
 }
 
 /// No file within itself, none too deep, not too many, and nothing that changes what is in the model.
-fn may_be_included(
-    e: Element<'_>,
-    uri: &str,
-    open: &[String],
-    count: usize,
-) -> Result<(), ImportError> {
+fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> Read<()> {
     if open.iter().any(|o| o == uri) {
         let remedy = "remove one of the includes";
         return Err(refuse(e, uri, "the file includes itself", remedy));

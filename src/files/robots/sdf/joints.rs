@@ -1,11 +1,10 @@
 //! The joints and constraints of an SDF file.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{Vector, Z, cross, dot, length, sub};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
-use crate::robots::problem::bad_value;
+use crate::robots::problem::{Read, bad_value};
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::Element;
 
@@ -21,7 +20,7 @@ pub(crate) fn axis(
     scope: &str,
     scene: &SdfScene<'_>,
     at: &RigidMotion,
-) -> Result<Vector, ImportError> {
+) -> Read<Vector> {
     let Some(a) = e.child(tag) else {
         return Err(e.missing(&format!("<{tag}>")));
     };
@@ -55,7 +54,7 @@ pub(crate) fn joint(
     scene: &SdfScene<'_>,
     size: f64,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let name = format!("{scope}{}", e.required("name")?);
     let word = e.required("type")?;
     let (parent_tag, parent_name) = end(e, "parent")?;
@@ -116,7 +115,7 @@ fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
     scene.placed.get(name).is_some_and(|p| p.link.is_none())
 }
 
-fn joint_type(e: Element<'_>, word: &str) -> Result<JointType, ImportError> {
+fn joint_type(e: Element<'_>, word: &str) -> Read<JointType> {
     Ok(match word {
         "revolute" | "continuous" | "hinge" => JointType::Revolute,
         "prismatic" => JointType::Prismatic,
@@ -155,12 +154,7 @@ fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
 }
 
 /// Notes the coupling of a joint whose axis follows that of another, which it gives the name of.
-fn mimic(
-    e: Element<'_>,
-    name: &str,
-    scope: &str,
-    robot: &mut Robot,
-) -> Result<Option<String>, ImportError> {
+fn mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Option<String>> {
     // Drake's own has its numbers as attributes.
     let mimics = ["mimic", "drake:mimic"];
     let inside = e.children().flat_map(Element::children);
@@ -179,7 +173,7 @@ fn mimic(
     Ok(Some(leader))
 }
 
-pub(crate) fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> {
+pub(crate) fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
     let Some(l) = e.child("axis").and_then(|a| a.child("limit")) else {
         return Ok(None);
     };
@@ -198,7 +192,7 @@ pub(crate) fn limits(e: Element<'_>) -> Result<Option<(f64, f64)>, ImportError> 
 }
 
 /// Metres per radian: `screw_thread_pitch` is metres per turn, `thread_pitch` minus radians per metre.
-pub(crate) fn screw_pitch(e: Element<'_>) -> Result<f64, ImportError> {
+pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
     if let Some(p) = e.child("screw_thread_pitch") {
         return Ok(p.text_numbers::<1>()?[0] / std::f64::consts::TAU);
     }
@@ -220,7 +214,7 @@ pub(crate) fn two_axes(
     mut part: Part,
     [first, second]: [Vector; 2],
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let (a, b) = (towards(first), towards(second));
     if length(cross(a, b)) < 1e-9 {
         return Err(e.unsupported("its two axes are parallel", "give two directions"));
@@ -257,7 +251,7 @@ pub(crate) fn weld(
     scope: &str,
     scene: &SdfScene<'_>,
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (x, tag) in ends.iter_mut().zip(["parent", "child"]) {
         let (c, name) = end(e, tag)?;

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::problem::{known, unknown_name};
+use crate::robots::problem::{Read, known, unknown_name};
 use crate::robots::xml::Element;
 use std::collections::BTreeMap;
 
@@ -78,11 +78,7 @@ pub(crate) fn absolute(scope: &str, name: &str) -> String {
     }
 }
 
-pub(crate) fn insert<'a>(
-    scene: &mut SdfScene<'a>,
-    name: String,
-    p: Placed<'a>,
-) -> Result<(), ImportError> {
+pub(crate) fn insert<'a>(scene: &mut SdfScene<'a>, name: String, p: Placed<'a>) -> Read<()> {
     p.element
         .room("links, frames and joints", scene.placed.len())?;
     if name == "world" || scene.placed.contains_key(&name) {
@@ -101,7 +97,7 @@ pub(crate) fn unknown(e: Element<'_>, name: &str, scene: &SdfScene<'_>) -> Impor
 }
 
 /// Works out all places in the world.
-pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Result<(), ImportError> {
+pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Read<()> {
     let names: Vec<String> = scene.placed.keys().cloned().collect();
     for name in names {
         // Down to something whose place is known, then back.
@@ -173,7 +169,7 @@ pub(crate) fn located(
     e: Element<'_>,
     name: &str,
     scene: &SdfScene<'_>,
-) -> Result<(usize, RigidMotion), ImportError> {
+) -> Read<(usize, RigidMotion)> {
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown(e, &n, scene),
         None => e.unsupported(
@@ -184,7 +180,7 @@ pub(crate) fn located(
 }
 
 /// Parent or child of a joint: the element and the name, which old files have as an attribute.
-pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Result<(Element<'a>, &'a str), ImportError> {
+pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Read<(Element<'a>, &'a str)> {
     let name = |c: Element<'a>| match c.text() {
         "" => c.attribute("link").unwrap_or(""),
         text => text,

@@ -1,19 +1,15 @@
 //! Joints of one more freedom in a URDF file: light links and joints put in between the parent
 //! of a joint, or the first link of a loop, and the joint.
 
-use crate::file::problem::ImportError;
 use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{comment, escape, numbers};
+use crate::robots::problem::Read;
 use crate::robots::xml::Element;
 
 /// Gives joints freedoms. What is put in between stands before the joint: its child, its name and what follows it stay.
-pub(crate) fn free(
-    origin: &Origin,
-    all: &[Freeing<'_>],
-    edits: &mut Edits<'_>,
-) -> Result<(), ImportError> {
+pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let light = Light::in_description(&origin.document).urdf();
     for &(part, e, freed) in all {
         // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
@@ -79,7 +75,7 @@ pub(crate) fn uncouple(
     element: usize,
     why: &str,
     edits: &mut Edits<'_>,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     let e = origin.element(element);
     let raw = comment(edits.raw(e));
     let span = e.node().span.start..crate::robots::edit::end(e);

@@ -1,11 +1,11 @@
 //! What `<gazebo>` elements of a URDF add to the model that Gazebo makes of it: joints of SDF, which may close loops, and plugins.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
 use crate::robots::additions::{leave_out, plugin};
 use crate::robots::description::Robot;
 use crate::robots::description::kinematics::{places, spanning_tree};
+use crate::robots::problem::Read;
 use crate::robots::sdf::joints::joint;
 use crate::robots::sdf::named_place;
 use crate::robots::sdf::scene::{Placed, SdfScene, end, insert, resolve};
@@ -15,7 +15,7 @@ use crate::robots::xml::Element;
 ///
 /// # Errors
 /// Where a joint is not one that SDF has.
-pub(crate) fn read(root: Element<'_>, robot: &mut Robot) -> Result<(), ImportError> {
+pub(crate) fn read(root: Element<'_>, robot: &mut Robot) -> Read<()> {
     let inside = root
         .named("gazebo")
         .flat_map(|g| g.children().collect::<Vec<_>>());
@@ -49,7 +49,7 @@ fn names_world(joint: Element<'_>) -> bool {
 }
 
 /// The links where they are drawn.
-fn placed<'a>(root: Element<'a>, robot: &Robot) -> Result<SdfScene<'a>, ImportError> {
+fn placed<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);
     let model = Placed::new(
@@ -77,7 +77,7 @@ fn add<'a>(
     joints: &[Element<'a>],
     plugins: &[Element<'a>],
     robot: &mut Robot,
-) -> Result<(), ImportError> {
+) -> Read<()> {
     for &e in joints {
         let shared = e
             .attribute("name")

@@ -1,18 +1,18 @@
 //! What shapes of MJCF weigh, filled evenly.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, length, scale, sub};
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Lookup;
 use crate::robots::mjcf::weights::weight::{Settings, Weight};
+use crate::robots::problem::Read;
 use std::f64::consts::PI;
 
 /// kg/m³ where nothing is said.
 const WATER: f64 = 1000.0;
 
 /// Returns the numbers of `size`; 0 where there are fewer than three.
-fn sizes(look: &Lookup<'_>) -> Result<[f64; 3], ImportError> {
+fn sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
     let Some((e, text)) = look.attribute("size") else {
         return Ok([0.0; 3]);
     };
@@ -40,7 +40,7 @@ struct Measures {
 
 impl Measures {
     /// Returns those of a shape.
-    fn of(look: &Lookup<'_>, compiler: &Compiler) -> Result<Measures, ImportError> {
+    fn of(look: &Lookup<'_>, compiler: &Compiler) -> Read<Measures> {
         let sizes = sizes(look)?;
         let mut out = Measures {
             sizes,
@@ -67,10 +67,7 @@ impl Measures {
 }
 
 /// Returns what a shape weighs on its body or frame, where it weighs something.
-pub(super) fn weight_of_shape(
-    look: &Lookup<'_>,
-    settings: &Settings,
-) -> Result<Option<Weight>, ImportError> {
+pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Option<Weight>> {
     let measures = Measures::of(look, &settings.compiler)?;
     let [group] = look.numbers::<1>("group")?.unwrap_or_default();
     let stated = look.numbers::<1>("mass")?.map(|[m]| m);
@@ -97,7 +94,7 @@ pub(super) fn weight_of_shape(
 }
 
 /// Returns the turn that one of the five ways stands for, of the element or of its class.
-fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Result<RigidMotion, ImportError> {
+fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
     let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
     match ways.iter().find_map(|w| look.attribute(w)) {
         Some((e, _)) => compiler.turned(e),

@@ -1,9 +1,9 @@
 //! Masses with their tensors of inertia, several as one, and what an MJCF file says of how bodies are weighed.
 
-use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
 use crate::robots::mjcf::context::{Compiler, compiler};
+use crate::robots::problem::Read;
 use crate::robots::xml::Element;
 
 /// Mass in kg, and the tensor in kg·m².
@@ -93,7 +93,7 @@ pub(super) struct Settings {
 
 impl Settings {
     /// Returns the settings of a file.
-    pub(super) fn read(root: Element<'_>) -> Result<Settings, ImportError> {
+    pub(super) fn read(root: Element<'_>) -> Read<Settings> {
         let mut out = Settings {
             compiler: compiler(root)?,
             least: [0.0; 2],

@@ -1,0 +1,176 @@
+//! An element: its name, attributes, text and children, the numbers of these, and problems with it.
+
+use crate::file::problem::{ImportError, ProblemKind};
+use crate::geom::vector::Vector;
+use crate::robots::problem::{
+    Read, bad_value, missing, too_many, unknown_name, unknown_word, unsupported, whole,
+};
+use crate::robots::xml::{Document, Node};
+use std::ops::Range;
+
+/// Most links, and most joints, of a robot.
+const MAX_PARTS: usize = 10_000;
+/// Largest size of a number; the mechanism file takes lengths up to 1e12.
+const MAX_NUMBER: f64 = 1e9;
+
+/// An element.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Element<'a> {
+    pub(in crate::robots) document: &'a Document,
+    pub(in crate::robots) id: usize,
+}
+
+impl<'a> Element<'a> {
+    pub(in crate::robots) fn node(self) -> &'a Node {
+        &self.document.nodes[self.id]
+    }
+
+    pub(crate) fn name(self) -> &'a str {
+        &self.node().name
+    }
+
+    /// Where the value of an attribute stands in the file.
+    pub(in crate::robots) fn value_span(self, name: &str) -> Option<Range<usize>> {
+        let found = self.node().find(name)?;
+        (found.span != self.node().span).then(|| found.span.clone())
+    }
+
+    pub(crate) fn text(self) -> &'a str {
+        self.node().text.trim()
+    }
+
+    pub(crate) fn source(self) -> &'a str {
+        &self.document.sources[self.node().source].name
+    }
+
+    pub(crate) fn children(self) -> impl DoubleEndedIterator<Item = Element<'a>> {
+        let all = self.node().children.iter();
+        all.map(move |&id| self.document.element(id))
+    }
+
+    pub(crate) fn named(self, name: &str) -> impl Iterator<Item = Element<'a>> {
+        self.children().filter(move |c| c.name() == name)
+    }
+
+    pub(crate) fn child(self, name: &str) -> Option<Element<'a>> {
+        self.children().find(|c| c.name() == name)
+    }
+
+    pub(crate) fn attribute(self, name: &str) -> Option<&'a str> {
+        self.node().find(name).map(|a| a.value.as_str())
+    }
+
+    /// Names and values of all attributes.
+    pub(crate) fn attributes(self) -> impl Iterator<Item = (&'a str, &'a str)> {
+        let all = self.node().attributes.iter();
+        all.map(|a| (a.name.as_str(), a.value.as_str()))
+    }
+
+    /// How the element is called in messages.
+    pub(crate) fn label(self) -> String {
+        match self.attribute("name") {
+            Some(n) => format!("{} \"{n}\"", self.name()),
+            None => format!("<{}>", self.name()),
+        }
+    }
+
+    /// A problem with the element, or with one of its attributes.
+    pub(crate) fn fail(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
+        let node = self.node();
+        let found = attribute.and_then(|name| node.find(name));
+        let span = found.map_or(&node.span, |a| &a.span).clone();
+        let source = &self.document.sources[node.source];
+        problem.at(&source.name, &source.text, Some(span))
+    }
+
+    /// A part that cannot be read.
+    pub(crate) fn unsupported(self, why: &str, remedy: &str) -> ImportError {
+        self.fail(None, unsupported(&self.label(), why, remedy))
+    }
+
+    /// A word that is none of those known.
+    pub(crate) fn unknown_word(self, what: &str, word: &str, known: &str) -> ImportError {
+        self.fail(Some(what), unknown_word(&self.label(), what, word, known))
+    }
+
+    /// Refuses one more of `what` where there are too many already.
+    pub(crate) fn room(self, what: &str, count: usize) -> Read<()> {
+        let limit = MAX_PARTS;
+        if count < limit {
+            return Ok(());
+        }
+        Err(self.fail(None, too_many(what, limit)))
+    }
+
+    /// The attribute that must be there.
+    pub(crate) fn required(self, name: &str) -> Read<&'a str> {
+        let found = self.attribute(name).filter(|v| !v.trim().is_empty());
+        found.ok_or_else(|| self.missing(&format!("attribute {name}")))
+    }
+
+    /// The problem that something is not there.
+    pub(crate) fn missing(self, what: &str) -> ImportError {
+        self.fail(None, missing(&self.label(), what))
+    }
+
+    /// The problem that the name is there twice.
+    pub(crate) fn duplicate(self) -> ImportError {
+        let message = format!("{} is there twice; names must be unique", self.label());
+        self.fail(Some("name"), whole(message))
+    }
+
+    /// The problem that an attribute, or the text, names what there is not.
+    pub(crate) fn unknown_name(
+        self,
+        key: &str,
+        what: &str,
+        name: &str,
+        known: &str,
+    ) -> ImportError {
+        self.fail(Some(key), unknown_name(&self.label(), what, name, known))
+    }
+}
+
+impl Element<'_> {
+    /// N numbers of an attribute, if it is there.
+    pub(crate) fn numbers<const N: usize>(self, name: &str) -> Read<Option<[f64; N]>> {
+        self.attribute(name)
+            .map(|text| self.parse_numbers(name, text))
+            .transpose()
+    }
+
+    /// A vector attribute, or what is there without it.
+    pub(crate) fn vector(self, name: &str, default: Vector) -> Read<Vector> {
+        Ok(self.numbers::<3>(name)?.unwrap_or(default))
+    }
+
+    /// N numbers of the element's text.
+    pub(crate) fn text_numbers<const N: usize>(self) -> Read<[f64; N]> {
+        self.parse_numbers("the text", self.text())
+    }
+
+    fn parse_numbers<const N: usize>(self, what: &str, text: &str) -> Read<[f64; N]> {
+        let bad = || {
+            let want = match N {
+                _ if text.contains("${") => "expand the macros first, with `xacro FILE`".to_owned(),
+                1 => "write one finite number up to 1e9 in size".to_owned(),
+                n => format!("write {n} finite numbers up to 1e9 in size, with spaces between"),
+            };
+            let found: String = text.chars().take(60).collect();
+            self.fail(Some(what), bad_value(&self.label(), what, &found, &want))
+        };
+        let mut out = [0.0; N];
+        let mut words = text.split_whitespace();
+        for x in &mut out {
+            *x = words
+                .next()
+                .and_then(|w| w.parse::<f64>().ok())
+                .filter(|x| x.abs() <= MAX_NUMBER)
+                .ok_or_else(bad)?;
+        }
+        if words.next().is_some() {
+            return Err(bad());
+        }
+        Ok(out)
+    }
+}
