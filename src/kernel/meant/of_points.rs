@@ -4,6 +4,7 @@ use super::directions::Direction;
 use super::projection::Projection;
 use super::written::{PointPair, pairs};
 use crate::geom::vector::{Vector, add_scaled, cross, dot, length, sub, unit};
+use std::collections::BTreeMap;
 
 /// Points that lines and planes of points are looked for among.
 const MOST: usize = 60;
@@ -84,8 +85,9 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         return Vec::new();
     }
     let mut found: Vec<(usize, Vector, f64)> = Vec::new();
-    // Planes that were looked at, by a point of each: three other points of one have nothing new to say.
-    let mut seen: Vec<(Vector, usize)> = Vec::new();
+    // Planes that were looked at, by a point of each: three other points of one have nothing new to say. In the order of how large
+    // a component of the normal is, near which alone a parallel one can be; a float that is not negative is ordered by its bits.
+    let mut seen: BTreeMap<(u64, usize), (Vector, usize)> = BTreeMap::new();
     for i in 0..n {
         for j in 0..i {
             for k in 0..j {
@@ -101,15 +103,17 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
                 if found.iter().any(|f| length(cross(f.1, normal)) < 2.0 * off) {
                     continue;
                 }
-                let known = |s: &(Vector, usize)| {
+                let known = |(_, s): (&(u64, usize), &(Vector, usize))| {
                     let w = sub(points[k], points[s.1]);
                     length(cross(s.0, normal)) < 2.0 * off
                         && dot(s.0, w).abs() <= 2.0 * off * length(w) + errors[k]
                 };
-                if seen.iter().any(known) {
+                let size = |more: f64| (normal[0].abs() + more).max(0.0).to_bits();
+                let near = (size(-3.0 * off), 0)..=(size(3.0 * off), usize::MAX);
+                if seen.range(near).any(known) {
                     continue;
                 }
-                seen.push((normal, k));
+                seen.insert((size(0.0), seen.len()), (normal, k));
                 let mut places = 0;
                 for l in 0..n {
                     let w = sub(points[l], points[k]);
