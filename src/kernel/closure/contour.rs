@@ -1,11 +1,12 @@
 //! Independent contours: those the file names, completed to a minimum cycle basis.
 
+use crate::closure::tree::{forest, tied};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use itertools::Itertools;
 use petgraph::graph::{EdgeIndex, EdgeReference, NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BinaryHeap};
 
 /// A closed walk through joints; `forward` where the walk goes from `links[0]` to `links[1]` of the joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -152,7 +153,34 @@ fn components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
     touched(mechanism, joints) - merged
 }
 
-/// Horton's candidates, shortest first: for each link v and joint (x, y), the shortest paths from v with the joint.
+/// Returns the joints of each biconnected block of the graph of links; those in no cycle are in none.
+fn blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
+    let links = mechanism.links.len();
+    let ends = |e: usize| mechanism.joints[present[e]].links.map(LinkId::index);
+    let (_, steps) = forest(links, (0..present.len()).map(ends), |_| false, 0..links);
+    let mut depth = vec![0_usize; links];
+    let mut back: Vec<Option<(usize, usize)>> = vec![None; links];
+    let mut closing = vec![true; present.len()];
+    for s in &steps {
+        depth[s.link] = depth[s.from] + 1;
+        back[s.link] = Some((s.from, s.joint));
+        closing[s.joint] = false;
+    }
+    let cycle = |e: usize| {
+        let ([mut a, mut b], mut out) = (ends(e), vec![present[e]]);
+        while a != b {
+            let deeper = if depth[a] < depth[b] { &mut b } else { &mut a };
+            let Some((from, joint)) = back[*deeper] else {
+                break;
+            };
+            (*deeper, _) = (from, out.push(present[joint]));
+        }
+        out
+    };
+    tied((0..present.len()).filter(|&e| closing[e]).map(cycle))
+}
+
+/// Horton's candidates, shortest first: for each link v and joint (x, y) of a block, the shortest paths from v with the joint.
 fn shortest_cycles(
     mechanism: &Mechanism,
     present: &[JointId],
@@ -160,29 +188,36 @@ fn shortest_cycles(
     // A small distinct excess on each weight makes shortest paths unique, which Horton's theorem needs; it also makes
     // the choice among equals follow the order of the file.
     const UNIT: u64 = 1 << 44;
-    let mut graph = Graph::default();
-    for _ in &mechanism.links {
-        graph.add_node(());
-    }
-    for (i, &j) in present.iter().enumerate() {
-        let [a, b] = mechanism.joints[j].links;
-        let excess = (i as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 38;
-        graph.add_edge(
-            NodeIndex::new(a.index()),
-            NodeIndex::new(b.index()),
-            WeighedJoint {
-                joint: j,
-                length: UNIT + (i as u64 + 1) * (1 << 20) + (excess & 0xf_ffff),
-            },
-        );
-    }
-    let trees: Vec<Tree> = graph.node_indices().map(|v| Tree::new(&graph, v)).collect();
+    let weighed = |joint: JointId| {
+        let i = present.partition_point(|&j| j < joint) as u64 + 1;
+        let excess = i.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 38;
+        WeighedJoint {
+            joint,
+            length: UNIT + i * (1 << 20) + (excess & 0xf_ffff),
+        }
+    };
+    // A cycle is within a block, and so are shortest paths between links of one.
+    let graph = |block: Vec<JointId>| {
+        let (mut graph, mut nodes) = (Graph::default(), BTreeMap::new());
+        for j in block {
+            let ends = mechanism.joints[j].links;
+            let [a, b] = ends.map(|l| *nodes.entry(l).or_insert_with(|| graph.add_node(())));
+            graph.add_edge(a, b, weighed(j));
+        }
+        graph
+    };
+    let graphs: Vec<Graph> = blocks(mechanism, present).into_iter().map(graph).collect();
+    let of = |(g, graph): (usize, &Graph)| {
+        let tree = |v| (g, Tree::new(graph, v));
+        graph.node_indices().map(tree).collect_vec()
+    };
+    let trees: Vec<(usize, Tree)> = graphs.iter().enumerate().flat_map(of).collect();
     // (length, v, joint): the cycles themselves are written out only as they are asked for.
     let mut heap: BinaryHeap<Reverse<(u64, usize, usize)>> = trees
         .iter()
         .enumerate()
-        .flat_map(|(v, tree)| {
-            let closing = graph.edge_references().filter_map(|e| tree.closes(e));
+        .flat_map(|(v, (g, tree))| {
+            let closing = graphs[*g].edge_references().filter_map(|e| tree.closes(e));
             closing.map(move |(length, e)| Reverse((length, v, e)))
         })
         .collect::<Vec<_>>()
@@ -199,7 +234,8 @@ fn shortest_cycles(
                     break;
                 }
                 heap.pop();
-                let cycle = trees[v].cycle(&graph, e);
+                let (g, tree) = &trees[v];
+                let cycle = tree.cycle(&graphs[*g], e);
                 equal.push((cycle.iter().copied().sorted().collect_vec(), cycle));
             }
             equal.sort_unstable();
