@@ -247,9 +247,10 @@ impl<'a> Projection<'a> {
             };
             let mut next = Sparse::with_capacity(of.len() + is.len());
             for &(j, x) in of {
-                match j == pivot {
-                    true => next.extend(is.iter().map(|&(k, y)| (k, x * y))),
-                    false => next.push((j, x)),
+                if j == pivot {
+                    next.extend(is.iter().map(|&(k, y)| (k, x * y)));
+                } else {
+                    next.push((j, x));
                 }
             }
             self.before.push((i, self.told[i].replace(added(next))));
