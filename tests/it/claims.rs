@@ -391,13 +391,7 @@ fn optional_keys_are_empty_and_not_absent() {
             .all(|r| r["open"].is_array())
     );
     let found = keys(&json("search four-bar --top 1 --format json"));
-    for key in [
-        "ranking",
-        "numeric",
-        "second_opinion",
-        "certainty",
-        "left_out",
-    ] {
+    for key in words("ranking numeric second_opinion certainty left_out") {
         assert!(found.contains(key), "{key}: {found:?}");
     }
 }

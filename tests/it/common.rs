@@ -248,6 +248,20 @@ pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
     text.replacen(from, to, 1)
 }
 
+/// Exit code, standard output and standard error of a command.
+pub(crate) fn ran<L: Line + ?Sized>(args: &L) -> (Option<i32>, String, String) {
+    let o = run(args);
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
+/// Standard output and standard error of a command that succeeds.
+#[track_caller]
+pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {
+    let (code, said, told) = ran(args);
+    assert_eq!(code, Some(0), "{:?}: {told}", args.words());
+    (said, told)
+}
+
 /// Exit code, standard output and standard error of a command on a file with this text.
 pub(crate) fn run_on(
     command: &str,
@@ -257,8 +271,7 @@ pub(crate) fn run_on(
 ) -> (Option<i32>, String, String) {
     let (_folder, path) = written(name, content);
     let args = [&[command, path], more].concat();
-    let o = run(&args);
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
+    ran(&args)
 }
 
 /// Returns the rows of a table: one a line, bars between their cells, and `\n` for the end of a line within a cell.

@@ -8,23 +8,11 @@ use ozols::rank::method::NoAnswer;
 use ozols::rank::method::registry::by_name;
 use ozols::redundancy::analysis::StateAnalysis;
 
-const FRAME: &str = r#"
-name = "pair"
-length_unit = "mm"
-[[link]]
-id = "0"
-role = "frame"
-[[link]]
-id = "1"
-[[link]]
-id = "2"
-role = "output"
-"#;
-
 /// Two joints on the frame, with couplings.
 fn pair(first: &str, second: &str, couplings: &str) -> String {
+    let frame = file_of("name = \"pair\"\nlength_unit = \"mm\"", "0 1 2*", "");
     format!(
-        "{FRAME}\n[[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\npoint = [0, 0, 0]\n{first}\n\
+        "{frame}\n[[joint]]\nid = \"a\"\nlinks = [\"0\", \"1\"]\npoint = [0, 0, 0]\n{first}\n\
          [[joint]]\nid = \"b\"\nlinks = [\"0\", \"2\"]\npoint = [100, 0, 0]\n{second}\n{couplings}\n"
     )
 }
@@ -54,83 +42,49 @@ fn problem(text: &str) -> String {
 
 #[test]
 fn what_a_file_may_not_say() {
-    let bad = |first: &str, second: &str, coupling: &str, wanted: &str| {
-        let e = problem(&pair(first, second, coupling));
-        assert!(e.contains(wanted), "{e}\nnot: {wanted}");
-    };
-    bad(TURN, TURN, &coupled("a", "c", "1"), "unknown joint \"c\"");
-    bad(
-        TURN,
-        TURN,
-        &coupled("a", "b", "0"),
-        "ratio of a coupling is zero",
-    );
-    bad(
-        TURN,
-        TURN,
-        &coupled("a", "b", "\"sqrt(2)-sqrt(2)\""),
-        "ratio of a coupling is zero",
-    );
-    bad(TURN, TURN, &coupled("a", "a", "1"), "coupled with itself");
-    let twice = coupled("a", "b", "1") + &coupled("b", "a", "1");
-    bad(TURN, TURN, &twice, "coupled twice");
     let ball = "type = \"spherical\"";
-    bad(
-        TURN,
-        ball,
-        &coupled("a", "b", "1"),
-        "no freedom that can be coupled",
-    );
-    bad(
-        TURN,
-        ball,
-        &coupled("a", "b:rz", "1"),
-        "no freedom that can be coupled",
-    );
     let fixed = "type = \"fixed\"";
-    bad(
-        fixed,
-        TURN,
-        &coupled("a", "b", "1"),
-        "no freedom that can be coupled",
-    );
     let both = "type = \"cylindrical\"\naxis = [0, 0, 1]";
-    bad(
-        TURN,
-        both,
-        &coupled("a", "b", "1"),
-        "several freedoms; say which is coupled: b:rz, b:tz",
-    );
-    bad(TURN, both, &coupled("a", "b:rx", "1"), "known: b:rz, b:tz");
-    let clamped = format!("{TURN}\nstate = \"clamped\"");
-    bad(
-        &clamped,
-        TURN,
-        &coupled("a", "b", "1"),
-        "not present in the same states",
-    );
-    let own = format!("{TURN}\noptions = [\"spherical\"]");
-    bad(
-        &own,
-        TURN,
-        &coupled("a", "b", "1"),
-        "does not keep the freedom that is coupled",
-    );
     let tilted = "type = \"revolute\"\naxis = [1, 0, 0]";
-    let planar = pair(tilted, TURN, &coupled("a", "b", "1")).replacen(
-        "length_unit",
-        "mode = \"planar\"\nlength_unit",
-        1,
-    );
-    assert!(problem(&planar).contains("no freedom that can be coupled"));
-    assert!(
-        problem(&pair(
-            TURN,
-            TURN,
-            "[[coupling]]\njoints = [\"a\"]\nratio = 1"
-        ))
-        .contains("has 1 value")
-    );
+    let clamped = format!("{TURN}\nstate = \"clamped\"");
+    let own = format!("{TURN}\noptions = [\"spherical\"]");
+    let kind = |name: &str| match name {
+        "turn" => TURN,
+        "ball" => ball,
+        "fixed" => fixed,
+        "both" => both,
+        "clamped" => &clamped,
+        _ => &own,
+    };
+    for [joints, ends, ratio, wanted] in cases::<4>(
+        r#"
+        turn turn | a c | 1 | unknown joint "c"
+        turn turn | a b | 0 | ratio of a coupling is zero
+        turn turn | a b | "sqrt(2)-sqrt(2)" | ratio of a coupling is zero
+        turn turn | a a | 1 | coupled with itself
+        turn ball | a b | 1 | no freedom that can be coupled
+        turn ball | a b:rz | 1 | no freedom that can be coupled
+        fixed turn | a b | 1 | no freedom that can be coupled
+        turn both | a b | 1 | several freedoms; say which is coupled: b:rz, b:tz
+        turn both | a b:rx | 1 | known: b:rz, b:tz
+        clamped turn | a b | 1 | not present in the same states
+        own turn | a b | 1 | does not keep the freedom that is coupled
+        "#,
+    ) {
+        let (first, second) = joints.split_once(' ').unwrap();
+        let (a, b) = ends.split_once(' ').unwrap();
+        has(
+            &problem(&pair(kind(first), kind(second), &coupled(a, b, ratio))),
+            wanted,
+        );
+    }
+    let twice = coupled("a", "b", "1") + &coupled("b", "a", "1");
+    has(&problem(&pair(TURN, TURN, &twice)), "coupled twice");
+    let planar = pair(tilted, TURN, &coupled("a", "b", "1"));
+    let planar = changed(&planar, "length_unit", "mode = \"planar\"\nlength_unit");
+    has(&problem(&planar), "no freedom that can be coupled");
+    let one = "[[coupling]]\njoints = [\"a\"]\nratio = 1";
+    has(&problem(&pair(TURN, TURN, one)), "has 1 value");
 }
 
 #[test]
@@ -330,18 +284,7 @@ fn certificates_hold_the_coupling() {
 /// Gears between the fingers of a gripper stay in every redesign, and the counts know them.
 #[test]
 fn redesigns_of_a_geared_gripper() {
-    let run = |name: &str| {
-        let o = ozols(&["search", name, "--top", "3", "--format", "json"])
-            .output()
-            .unwrap();
-        assert_eq!(
-            o.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&o.stderr)
-        );
-        serde_json::from_slice::<serde_json::Value>(&o.stdout).unwrap()
-    };
+    let run = |name: &str| json(&["search", name, "--top", "3", "--format", "json"]);
     let geared = run("geared-five-bar");
     let best = &geared["variants"][0];
     assert_eq!(

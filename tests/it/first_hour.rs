@@ -5,7 +5,7 @@ mod new;
 
 use crate::common::*;
 use ozols::terms::Terms;
-use std::process::{Command, Output};
+use std::process::Command;
 
 const COMMANDS: [&str; 22] = [
     "lint",
@@ -31,11 +31,6 @@ const COMMANDS: [&str; 22] = [
     "explain",
     "completions",
 ];
-
-fn run(args: &[&str]) -> (Option<i32>, String, String) {
-    let o: Output = ozols(args).output().unwrap();
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
-}
 
 // Help.
 
@@ -138,7 +133,7 @@ fn the_program_alone_says_where_to_begin() {
     }
     assert!(said.lines().count() < 12, "{said}");
     // An option without a command is still a mistake.
-    assert_eq!(run(&["--quiet"]).0, Some(2));
+    assert_eq!(ran(&["--quiet"]).0, Some(2));
 }
 
 // explain
@@ -241,10 +236,10 @@ fn joint_types_are_explained_with_their_picture() {
     for t in JointType::NAMED {
         assert!(all.contains(t.name()), "{t}");
     }
-    let (code, _, said) = run(&["explain", "sphere in cilinder"]);
+    let (code, _, said) = ran(&["explain", "sphere in cilinder"]);
     assert_eq!(code, Some(2));
     has(&said, "sphere-in-cylinder");
-    let (code, _, said) = run(&["explain", "sigma", "-o", "x.svg"]);
+    let (code, _, said) = ran(&["explain", "sigma", "-o", "x.svg"]);
     assert_eq!(code, Some(2));
     has(&said, "draws a joint type");
 }
@@ -277,7 +272,7 @@ fn terms_are_explained_by_name_sign_and_list() {
             t.name
         );
     }
-    let (code, stdout, err) = run(&["explain", "redundent constraint"]);
+    let (code, stdout, err) = ran(&["explain", "redundent constraint"]);
     assert_eq!((code, stdout.as_str()), (Some(2), ""));
     has(&err, "did you mean");
     has(&err, "redundant constraint");
@@ -298,7 +293,7 @@ fn every_shell_gets_a_script_and_bash_can_read_its_own() {
         return; // no bash here
     };
     assert!(o.status.success(), "{}", text(&o.stderr));
-    assert_eq!(run(&["completions", "tcsh"]).0, Some(2));
+    assert_eq!(ran(&["completions", "tcsh"]).0, Some(2));
 }
 
 // Colour.

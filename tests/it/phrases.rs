@@ -90,12 +90,7 @@ fn a_mechanism_without_an_output_can_be_analysed() {
     assert_eq!(code, Some(0));
     let found: serde_json::Value = serde_json::from_str(&said).unwrap();
     let known = json(&["analyze", "four-bar", "--format", "json"]);
-    for key in [
-        "mobility",
-        "redundant",
-        "working_mobility",
-        "local_mobility",
-    ] {
+    for key in words("mobility redundant working_mobility local_mobility") {
         assert_eq!(found["states"][0][key], known["states"][0][key], "{key}");
     }
     let (code, _, err) = run_on("check", "own.toml", &own, &[]);

@@ -58,6 +58,12 @@ pub(crate) fn figures(imported: &Imported, tolerance: f64) -> [i64; 6] {
     .map(|x| i64::try_from(x).unwrap())
 }
 
+/// What a text is read as.
+pub(crate) fn read(name: &str, text: &str) -> Imported {
+    import(name, text.as_bytes(), &none, &Options::default())
+        .unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
 /// The message of a text that is refused.
 pub(crate) fn refused(name: &str, text: &str) -> String {
     let e = import(name, text.as_bytes(), &none, &Options::default()).unwrap_err();
@@ -96,7 +102,7 @@ pub(crate) const ARM: &str = r#"<robot name="arm">
 
 #[test]
 fn poses_are_composed() {
-    let i = import("arm.urdf", ARM.as_bytes(), &none, &Options::default()).unwrap();
+    let i = read("arm.urdf", &ARM);
     for line in [
         "point = [-0.2, 0.1, 1]",
         "axis = [0, 1, 0]",
@@ -149,75 +155,29 @@ fn floating() {
 
 #[test]
 fn errors_name_the_element_and_the_line() {
-    for (from, to, words) in [
-        (
-            "<child link=\"b\"/>",
-            "<child link=\"c\"/>",
-            &[
-                "arm.urdf:5:",
-                "joint \"q\"",
-                "link \"c\"",
-                "base, a, b, tip",
-            ][..],
-        ),
-        (
-            "prismatic",
-            "sliding",
-            &[
-                "arm.urdf:5:",
-                "joint \"q\"",
-                "\"sliding\"",
-                "prismatic, fixed",
-            ],
-        ),
-        (
-            "xyz=\"1 0 0\"",
-            "xyz=\"0 0 0\"",
-            &["arm.urdf:6:", "axis", "joint \"q\""],
-        ),
-        (
-            "0.1 0.2 0",
-            "0.1 0.2",
-            &["arm.urdf:6:18:", "xyz", "3 finite numbers"],
-        ),
-        (
-            "0.1 0.2 0",
-            "0.1 nan 0",
-            &["arm.urdf:6:18:", "3 finite numbers"],
-        ),
-        ("0.1 0.2 0", "0.1 inf 0", &["3 finite numbers"]),
-        ("0.1 0.2 0", "${x} 0 0", &["xacro FILE"]),
-        ("name=\"q\" ", "", &["<joint> has no attribute name"]),
-        ("name=\"q\"", "name=\"p\"", &["joint \"p\" is there twice"]),
-        ("</robot>", "", &["arm.urdf:8:", "<robot> is not closed"]),
-        (
-            "</joint>\n  <joint name=\"t\"",
-            "</jnt>\n  <joint name=\"t\"",
-            &["jnt"],
-        ),
-        ("<robot", "<robit", &["arm.urdf:"]),
-        (
-            "<parent link=\"b\"/>",
-            "<parent link=\"tip\"/>",
-            &["connects a link to itself"],
-        ),
-        (
-            "<parent link=\"base\"/>",
-            "",
-            &["joint \"p\" has no <parent"],
-        ),
-        (
-            "<link name=\"tip\"/>",
-            "<link name=\"tip\"/><link name=\"loose\"/>",
-            &["link \"loose\"", "--floating"],
-        ),
-    ] {
+    for [from, to, words] in cases::<3>(
+        r#"
+        <child link="b"/> | <child link="c"/> | arm.urdf:5: & joint "q" & link "c" & base, a, b, tip
+        prismatic | sliding | arm.urdf:5: & joint "q" & "sliding" & prismatic, fixed
+        xyz="1 0 0" | xyz="0 0 0" | arm.urdf:6: & axis & joint "q"
+        0.1 0.2 0 | 0.1 0.2 | arm.urdf:6:18: & xyz & 3 finite numbers
+        0.1 0.2 0 | 0.1 nan 0 | arm.urdf:6:18: & 3 finite numbers
+        0.1 0.2 0 | 0.1 inf 0 | 3 finite numbers
+        0.1 0.2 0 | ${x} 0 0 | xacro FILE
+        name="q" type | type | <joint> has no attribute name
+        name="q" | name="p" | joint "p" is there twice
+        </robot> | | arm.urdf:8: & <robot> is not closed
+        </joint>\n  <joint name="t" | </jnt>\n  <joint name="t" | jnt
+        <robot | <robit | arm.urdf:
+        <parent link="b"/> | <parent link="tip"/> | connects a link to itself
+        <parent link="base"/> | | joint "p" has no <parent
+        <link name="tip"/> | <link name="tip"/><link name="loose"/> | link "loose" & --floating
+        "#,
+    ) {
         let text = ARM.replace(from, to);
         assert_ne!(text, ARM, "{from}");
         let e = refused("arm.urdf", &text);
-        for w in words {
-            assert!(e.contains(w), "{w:?} is not in: {e}");
-        }
+        has_all(&e, &words.split(" & ").collect_vec());
     }
 }
 
@@ -264,13 +224,7 @@ fn too_many_links() {
         refused("c.urdf", &chain(2100, "continuous")).contains("2100 links, more than the 2000")
     );
     assert!(refused("c.urdf", &chain(10_100, "fixed")).contains("more than 10000 links"));
-    let i = import(
-        "c.urdf",
-        chain(2100, "fixed").as_bytes(),
-        &none,
-        &Options::default(),
-    )
-    .unwrap();
+    let i = read("c.urdf", &chain(2100, "fixed"));
     assert_eq!(i.report.size, (2, 1));
 }
 

@@ -15,17 +15,9 @@ fn keys_of_analyze() {
         ["free", "clamped"]
     );
     for s in states {
-        for k in [
-            "links",
-            "joints",
-            "contours",
-            "freedoms",
-            "rank",
-            "mobility",
-            "working_mobility",
-            "local_mobility",
-            "redundant",
-        ] {
+        for k in words(
+            "links joints contours freedoms rank mobility working_mobility local_mobility redundant",
+        ) {
             assert!(s[k].is_i64() || s[k].is_u64(), "{k}");
         }
         for k in ["method", "certainty"] {
@@ -36,13 +28,7 @@ fn keys_of_analyze() {
         }
         assert!(s.as_object().unwrap().contains_key("external"));
     }
-    for k in [
-        "constraints",
-        "actual_mobility",
-        "working_mobility",
-        "lost_mobility",
-        "redundant",
-    ] {
+    for k in words("constraints actual_mobility working_mobility lost_mobility redundant") {
         assert!(states[1]["external"][k].is_number(), "{k}");
     }
 }

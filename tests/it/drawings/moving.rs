@@ -65,13 +65,7 @@ fn frames(args: &[&str]) -> Frames {
 
 #[test]
 fn bars_keep_their_lengths_while_joints_move() {
-    for name in [
-        "gripper-10",
-        "four-bar",
-        "jansen-leg",
-        "slider-crank-spatial",
-        "watt-straight-line",
-    ] {
+    for name in words("gripper-10 four-bar jansen-leg slider-crank-spatial watt-straight-line") {
         let f = frames(&[name, "--view", "z"]);
         assert!(f.bars.len() > 20, "{name}: {} pictures", f.bars.len());
         assert!(!f.bars[0].is_empty(), "{name}");

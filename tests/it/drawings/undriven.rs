@@ -6,13 +6,7 @@ use ozols::motion::working::working_way;
 
 #[test]
 fn joints_stay_together_while_the_outputs_move() {
-    for name in [
-        "griffis-duffy",
-        "double-banana",
-        "wren-platform",
-        "shaft-two-bearings",
-        "bennett",
-    ] {
+    for name in words("griffis-duffy double-banana wren-platform shaft-two-bearings bennett") {
         let m = built_in(name);
         let pose = Pose::of_file(&m, StateId::FREE).unwrap();
         let way = working_way(&m, StateId::FREE, &pose, 40).unwrap_or_else(|| panic!("{name}"));
@@ -50,12 +44,7 @@ fn joints_stay_together_while_the_outputs_move() {
 
 #[test]
 fn drawings_show_them() {
-    for name in [
-        "griffis-duffy",
-        "double-banana",
-        "wren-platform",
-        "shaft-two-bearings",
-    ] {
+    for name in words("griffis-duffy double-banana wren-platform shaft-two-bearings") {
         let svg = out(&["draw", name, "--motion"]);
         let pictures = svg.matches("data-frame").count();
         assert!(pictures > 10, "{name}: {pictures}");

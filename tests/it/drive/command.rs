@@ -4,10 +4,6 @@ mod moments;
 
 use crate::common::*;
 
-fn number(v: &Value) -> f64 {
-    v.real()
-}
-
 // The command.
 
 const SMALL: &str = r#"
@@ -47,14 +43,14 @@ fn built_in_module_runs_its_programme() {
     let design = &value["design"];
     // I = 0.05 + 2 · 0.3², k = I (2π/0.8)².
     near(
-        number(&design["stiffness"]),
+        design["stiffness"].real(),
         0.23 * (std::f64::consts::TAU / 0.8).powi(2),
         1e-9,
     );
     // Greatest acceleration: r p² φ0, as φ0 < 1.
-    let p2 = number(&design["stiffness"]) / 0.23;
+    let p2 = design["stiffness"].real() / 0.23;
     near(
-        number(&design["motions"][0]["acceleration"]),
+        design["motions"][0]["acceleration"].real(),
         0.3 * p2 * std::f64::consts::FRAC_PI_4,
         1e-9,
     );
@@ -63,7 +59,7 @@ fn built_in_module_runs_its_programme() {
         .iter()
         .filter(|s| !s["swing"].is_null())
     {
-        near(number(&s["swing"]["energy"]["residual"]), 0.0, 1e-9);
+        near(s["swing"]["energy"]["residual"].real(), 0.0, 1e-9);
     }
 }
 
@@ -80,7 +76,7 @@ fn the_drive_says_what_the_grip_must_hold() {
     let swung = json(&format!(
         "grip lever-gripper --any-acceleration {value} --format json"
     ));
-    let moment = |v: &Value| number(&v["hardest"]["load"]["drive_moment_per_lever"]);
+    let moment = |v: &Value| v["hardest"]["load"]["drive_moment_per_lever"].real();
     assert!(moment(&swung) > moment(&plain));
 }
 
@@ -93,21 +89,21 @@ fn missing_angle_gives_energy_and_spring() {
         std::f64::consts::FRAC_PI_4,
         2f64.to_radians(),
     );
-    let k = number(&d["stiffness"]);
+    let k = d["stiffness"].real();
     let energy = k / 2.0 * (2.0 * twist * missing - missing * missing);
-    near(number(&d["friction_energy"]), energy, 1e-12);
+    near(d["friction_energy"].real(), energy, 1e-12);
     near(
-        number(&d["cam"]["spring"]["rate"]),
+        d["cam"]["spring"]["rate"].real(),
         2.0 * energy / 0.015f64.powi(2),
         1e-8,
     );
     near(
-        number(&d["decrement"]),
+        d["decrement"].real(),
         (twist / (twist - missing)).ln(),
         1e-15,
     );
     // Viscous damping takes a little more of a swing that is fed.
-    let needed = number(&d["needed_feed"]);
+    let needed = d["needed_feed"].real();
     assert!(
         needed > energy && needed < 1.05 * energy,
         "{needed} {energy}"
@@ -116,7 +112,7 @@ fn missing_angle_gives_energy_and_spring() {
     let value = small_json(&small_with("swings = 5", "feed_energy = 0"), 1);
     let first = &value["design"]["programme"][0]["swing"];
     assert_eq!(first["end"], "missed");
-    near(number(&first["missing"]), missing, 1e-12);
+    near(first["missing"].real(), missing, 1e-12);
 }
 
 #[test]
@@ -224,7 +220,7 @@ fn inertia_comes_from_a_link() {
     };
     let value = small_json(&with_link("1"), 0);
     near(
-        number(&value["inertias"][0]),
+        value["inertias"][0].real(),
         0.04 + 3.0 * 0.01 + 2.0 * 0.09,
         1e-12,
     );
@@ -267,8 +263,8 @@ fn programmes_are_read_step_by_step() {
             Value::from(1)
         ]
     );
-    near(number(&steps[1]["duration"]), 0.25, 0.0);
-    near(number(&steps[3]["duration"]), 1.0, 0.0);
+    near(steps[1]["duration"].real(), 0.25, 0.0);
+    near(steps[3]["duration"].real(), 1.0, 0.0);
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! `check` says what a file describes, and what in it is likely a slip.
 
-use super::run;
 use crate::common::*;
 
 // check
@@ -14,8 +13,7 @@ fn four_bar_with(from: &str, to: &str) -> String {
 /// Checks a text that can be used: what is said on standard output and on standard error.
 fn checked(text: &str) -> (String, String) {
     let (_folder, path) = written("mine.toml", text);
-    let (code, said, warned) = run(&["check", path]);
-    assert_eq!(code, Some(0), "{warned}");
+    let (said, warned) = done(&["check", path]);
     (said, warned)
 }
 
@@ -110,7 +108,7 @@ fn check_doubts_built_in_mechanisms_only_with_reason() {
 #[test]
 fn check_is_quiet_when_asked() {
     let (_folder, path) = written("mine.toml", four_bar_with("redundant = 3", "redundant = 2"));
-    let (code, said, warned) = run(&["check", "--quiet", path]);
+    let (code, said, warned) = ran(&["check", "--quiet", path]);
     assert_eq!((code, warned.as_str()), (Some(0), ""));
     has(&said, "1 warning");
 }

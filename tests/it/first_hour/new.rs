@@ -1,6 +1,5 @@
 //! `new` and `list`: templates of every built-in mechanism.
 
-use super::run;
 use crate::common::*;
 
 // new
@@ -35,18 +34,12 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
 #[test]
 fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
     let folder = tempfile::tempdir().unwrap();
-    for from in [
-        "four-bar",
-        "gripper-10-loaded",
-        "lever-gripper",
-        "torsion-module",
-        "parallel-shears",
-    ] {
+    for from in words("four-bar gripper-10-loaded lever-gripper torsion-module parallel-shears") {
         let path = folder.path().join(format!("my {from}.toml"));
         let path = path.to_str().unwrap();
         let said = out(&["new", path, "--from", from]);
         has(&said, "ozols check");
-        let (code, _, err) = run(&["check", path]);
+        let (code, _, err) = ran(&["check", path]);
         assert_eq!((code, err.as_str()), (Some(0), ""), "{from}");
         let analysis = |file: &str| {
             let mut v = json(&["analyze", file, "--format", "json"]);
@@ -65,7 +58,7 @@ fn a_new_file_never_takes_the_place_of_another_unasked() {
     let path = folder.path().join("mine.toml");
     let file = path.to_str().unwrap();
     fs::write(&path, "mine").unwrap();
-    let (code, stdout, err) = run(&["new", file]);
+    let (code, stdout, err) = ran(&["new", file]);
     assert_eq!((code, stdout.as_str()), (Some(2), ""));
     has(&err, "is there already");
     has(&err, "--force");
@@ -87,13 +80,13 @@ fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
         ("benett", "bennett"),
         ("gripper10", "gripper-10"),
     ] {
-        let (code, _, err) = run(&["new", path.to_str().unwrap(), "--from", from]);
+        let (code, _, err) = ran(&["new", path.to_str().unwrap(), "--from", from]);
         assert_eq!(code, Some(2), "{err}");
         assert!(err.contains("did you mean") && err.contains(meant), "{err}");
         assert!(!path.exists());
     }
     for name in ["mine", "mine.json"] {
-        let (code, _, err) = run(&["new", folder.path().join(name).to_str().unwrap()]);
+        let (code, _, err) = ran(&["new", folder.path().join(name).to_str().unwrap()]);
         assert_eq!(code, Some(2));
         has(&err, "mine.toml");
     }
@@ -142,7 +135,7 @@ fn the_list_is_by_family_and_can_be_narrowed() {
     assert!(rows(&["list", "robot"]).contains(&"delta".to_owned()));
     let line = out(&["list", "four-bar"]);
     has(&line, "Planar crank-rocker four-bar as a spatial mechanism");
-    let (code, stdout, err) = run(&["list", "benett"]);
+    let (code, stdout, err) = ran(&["list", "benett"]);
     assert_eq!((code, stdout.as_str()), (Some(1), ""));
     has(&err, "benett");
     has(&err, "did you mean bennett");

@@ -2,10 +2,6 @@
 
 use crate::common::*;
 
-fn number(v: &Value) -> f64 {
-    v.real()
-}
-
 fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
     let (_folder, path) = written("lift.csv", table);
     let args = [&["grip", "lever-gripper", "--motion", path], more].concat();
@@ -25,16 +21,16 @@ fn every_step_has_its_own_least_force() {
     // The hardest case of the file is harder than any of these at its diameter.
     for step in steps {
         let rows = value["diameters"].list();
-        let same = |r: &&Value| (number(&r["diameter"]) - number(&step["diameter"])).abs() < 1e-9;
+        let same = |r: &&Value| (r["diameter"].real() - step["diameter"].real()).abs() < 1e-9;
         let load = &rows.iter().find(same).unwrap()["load"];
         assert_eq!(step["verdict"], "can hold");
-        assert!(number(&step["drive_moment_per_lever"]) < number(&load["drive_moment_per_lever"]));
-        assert!(number(&step["lower_bound"]) <= number(&step["drive_moment_per_lever"]));
+        assert!(step["drive_moment_per_lever"].real() < load["drive_moment_per_lever"].real());
+        assert!(step["lower_bound"].real() <= step["drive_moment_per_lever"].real());
         // One drive of both levers: force over moment is that of the diameter, whatever the case.
-        assert!(number(&step["drive_effort"]) > 0.0);
+        assert!(step["drive_effort"].real() > 0.0);
     }
     // Falling at nearly g takes nearly nothing; rest of a larger part takes more than of a smaller one.
-    let moment = |i: usize| number(&steps[i]["drive_moment_per_lever"]);
+    let moment = |i: usize| steps[i]["drive_moment_per_lever"].real();
     assert!(moment(2) < 0.2 * moment(0) && moment(3) < moment(0));
     // The step alone, as the one case of a file.
     let file = json(&["grip", "lever-gripper", "--format", "json"]);
@@ -48,16 +44,16 @@ fn every_step_has_its_own_least_force() {
     let rows = alone["diameters"].list();
     let row = rows
         .iter()
-        .find(|r| (number(&r["diameter"]) - 0.04).abs() < 1e-9)
+        .find(|r| (r["diameter"].real() - 0.04).abs() < 1e-9)
         .unwrap();
     near(
-        number(&row["load"]["drive_moment_per_lever"]),
+        row["load"]["drive_moment_per_lever"].real(),
         moment(1),
         1e-9,
     );
     near(
-        number(&row["load"]["drive_effort"]),
-        number(&steps[1]["drive_effort"]),
+        row["load"]["drive_effort"].real(),
+        steps[1]["drive_effort"].real(),
         1e-7,
     );
 }
@@ -74,7 +70,7 @@ fn attitudes_come_with_the_motion() {
     );
     let (_, said, _) = along(table, &["--format", "json"]);
     let value: Value = serde_json::from_str(&said).unwrap();
-    let moment = |i: usize| number(&value["motion"]["steps"][i]["drive_moment_per_lever"]);
+    let moment = |i: usize| value["motion"]["steps"][i]["drive_moment_per_lever"].real();
     // Along the part friction alone holds: harder by much.
     assert!(moment(1) > 1.5 * moment(0), "{} {}", moment(1), moment(0));
 }

@@ -168,14 +168,9 @@ fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
 #[test]
 fn reactions_in_a_plane_without_redundant_constraints_are_determined() {
     let mut seen = 0;
-    for name in [
-        "gripper-10-loaded",
-        "four-bar",
-        "jansen-leg",
-        "watt-six-bar",
-        "slider-crank-spatial",
-        "scissor-lift-3",
-    ] {
+    for name in words(
+        "gripper-10-loaded four-bar jansen-leg watt-six-bar slider-crank-spatial scissor-lift-3",
+    ) {
         let analysis = json(&["analyze", name, "--state", "free", "--format", "json"]);
         let parts = analysis["states"][0]["least_rows"].list();
         let args = [

@@ -248,14 +248,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
 /// Moving on from a moved pose is moving on: the chain of poses closes, and links stay rigid.
 #[test]
 fn poses_reached_in_steps_are_closed_and_rigid() {
-    for name in [
-        "bennett",
-        "gripper-10",
-        "rsur",
-        "stewart-gough",
-        "sarrus",
-        "delta",
-    ] {
+    for name in words("bennett gripper-10 rsur stewart-gough sarrus delta") {
         let mut pose = Pose::of_file(&built_in(name), StateId::FREE).unwrap();
         let f = pose.columns.len();
         for _ in 0..20 {

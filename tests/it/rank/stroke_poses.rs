@@ -207,11 +207,7 @@ fn parallelogram_through_its_flat_poses() {
 /// A truss that is only shaky moves nowhere.
 #[test]
 fn shaky_poses_do_not_move() {
-    for name in [
-        "jessen-icosahedron",
-        "octahedron-twisted",
-        "three-parallel-bars",
-    ] {
+    for name in words("jessen-icosahedron octahedron-twisted three-parallel-bars") {
         let found = figures(&built_in(name), [0.0, 1.0], 4);
         let stop = found.stop.unwrap();
         assert_eq!(stop.why, Why::Instantaneous, "{name}");

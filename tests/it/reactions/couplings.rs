@@ -212,12 +212,7 @@ fn reactions_are_those_of_all_equilibrium_equations_written_out() {
 
 #[test]
 fn redundant_mechanisms_are_in_equilibrium_with_what_their_couplings_pass() {
-    for name in [
-        "geared-gripper",
-        "geared-five-bar",
-        "planetary-gear",
-        "rack-gripper",
-    ] {
+    for name in words("geared-gripper geared-five-bar planetary-gear rack-gripper") {
         for seed in 0..4 {
             let mut m = loaded(name, &[]);
             with_loads(&mut m, &mut Random::new(900 + seed));
@@ -276,12 +271,7 @@ fn balanced(m: &Mechanism, positions: &[f64]) -> usize {
 fn the_drive_does_what_the_loads_take_at_every_pose() {
     let mut tried = 0;
     let turns: Vec<f64> = (-3..=3).map(|k| 0.1 * f64::from(k)).collect();
-    for name in [
-        "geared-gripper",
-        "geared-five-bar",
-        "planetary-gear",
-        "rack-gripper",
-    ] {
+    for name in words("geared-gripper geared-five-bar planetary-gear rack-gripper") {
         let mut m = loaded(name, &[]);
         with_loads(&mut m, &mut Random::new(77));
         m.loads.moments.clear();

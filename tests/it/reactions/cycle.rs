@@ -63,12 +63,7 @@ const STROKE: Stroke = Stroke {
 /// With all masses in the plane, what is redundant in space bears the same drive.
 #[test]
 fn the_drive_bears_the_same_in_the_plane_and_in_space() {
-    for name in [
-        "four-bar-planar",
-        "watt-six-bar",
-        "stephenson-six-bar",
-        "gripper-10-planar",
-    ] {
+    for name in words("four-bar-planar watt-six-bar stephenson-six-bar gripper-10-planar") {
         let slides = name == "gripper-10-planar";
         let mut m = moving(name, if slides { 30.0 } else { 3.0 }, Inertia::Plane);
         m.mode = Mode::Planar {

@@ -2,10 +2,6 @@
 
 use crate::common::*;
 
-fn number(v: &Value) -> f64 {
-    v.real()
-}
-
 fn statics(content: &str, more: &[&str]) -> (Option<i32>, String, String) {
     run_on("statics", "clamp.toml", content, more)
 }
@@ -48,7 +44,7 @@ fn a_part_that_lies_is_borne_from_below() {
     let content = between("[0, -9.81, 0]");
     let joints = solved(&content, &["--state", "clamped"]);
     assert_eq!(contact(&joints, "above")["touch"], "pulls");
-    near(number(&contact(&joints, "above")["normal"]), -4.905, 1e-9);
+    near(contact(&joints, "above")["normal"].real(), -4.905, 1e-9);
     let (code, said, _) = statics(&content, &["--state", "clamped"]);
     assert_eq!(code, Some(0));
     let line = said
@@ -58,8 +54,8 @@ fn a_part_that_lies_is_borne_from_below() {
     has(line, "above would pull with 4.905 N");
     let faces = solved(&content, &["--state", "clamped", "--unilateral"]);
     assert_eq!(faces["choice"], "pushing");
-    near(number(&contact(&faces, "below")["normal"]), 9.81, 1e-5);
-    near(number(&contact(&faces, "above")["normal"]), 0.0, 1e-5);
+    near(contact(&faces, "below")["normal"].real(), 9.81, 1e-5);
+    near(contact(&faces, "above")["normal"].real(), 0.0, 1e-5);
 }
 
 /// By hand: a weight along the faces needs N = G/2μ on each of two, and the least that does is of minimum norm.
@@ -72,13 +68,13 @@ fn a_part_that_hangs_needs_its_pressure() {
     for name in ["above", "below"] {
         let c = contact(&faces, name);
         assert_eq!(c["touch"], "pushes", "{c}");
-        near(number(&c["normal"]), 9.81 / 2.0 / 0.2, 1e-4);
-        near(number(&c["along_face"]), 9.81 / 2.0, 1e-4);
+        near(c["normal"].real(), 9.81 / 2.0 / 0.2, 1e-4);
+        near(c["along_face"].real(), 9.81 / 2.0, 1e-4);
     }
     // Without a coefficient there is as much friction as it takes, and nothing to press for.
     let free = content.replace("friction = 0.2", "radius = 1");
     let faces = solved(&free, &["--state", "clamped", "--unilateral"]);
-    assert!(number(&contact(&faces, "above")["normal"]).abs() < 1e-6);
+    assert!(contact(&faces, "above")["normal"].real().abs() < 1e-6);
 }
 
 /// One face above, nothing below: it cannot hold, and no reactions are given.
@@ -115,7 +111,7 @@ fn pressure_stays_on_the_face() {
     let faces = solved(&with("0.06"), &["--state", "clamped", "--unilateral"]);
     let c = contact(&faces, "below");
     assert!(
-        number(&c["tilting"]) <= 0.06 * number(&c["normal"]) * (1.0 + 1e-6),
+        c["tilting"].real() <= 0.06 * c["normal"].real() * (1.0 + 1e-6),
         "{c}"
     );
     // Tilted on a small face, the part is wedged between both: each presses more than the weight alone.
@@ -123,12 +119,12 @@ fn pressure_stays_on_the_face() {
     for name in ["above", "below"] {
         let c = contact(&wedged, name);
         assert!(
-            number(&c["tilting"]) <= 0.01 * number(&c["normal"]) * (1.0 + 1e-6),
+            c["tilting"].real() <= 0.01 * c["normal"].real() * (1.0 + 1e-6),
             "{c}"
         );
-        assert!(number(&c["normal"]) > 1.0, "{c}");
+        assert!(c["normal"].real() > 1.0, "{c}");
     }
-    assert!(number(&contact(&wedged, "below")["normal"]) > 9.81);
+    assert!(contact(&wedged, "below")["normal"].real() > 9.81);
 }
 
 /// By hand: a moment about the normal asks each of two faces for M/2, which even pressure on a round face bears where N is at
@@ -148,7 +144,7 @@ fn a_part_that_is_twisted_needs_its_pressure() {
         for name in ["above", "below"] {
             let c = contact(&faces, name);
             assert_eq!(c["touch"], "pushes", "{c}");
-            near(number(&c["normal"]), 0.75 / (2.0 / 3.0 * 0.2 * 0.03), 1e-3);
+            near(c["normal"].real(), 0.75 / (2.0 / 3.0 * 0.2 * 0.03), 1e-3);
         }
         let joints = solved(content, &["--state", "clamped"]);
         assert_eq!(contact(&joints, "above")["touch"], "slips");
@@ -166,7 +162,7 @@ fn what_hangs_and_twists_needs_more_than_either() {
         let c = contact(&faces, name);
         assert_eq!(c["touch"], "pushes", "{c}");
         let least = (9.81_f64 / 2.0).hypot(0.75 / (2.0 / 3.0 * 0.03)) / 0.2;
-        near(number(&c["normal"]), least, 1e-3);
+        near(c["normal"].real(), least, 1e-3);
     }
 }
 
@@ -186,11 +182,11 @@ fn what_tips_and_twists_shares_the_face() {
             let c = contact(&faces, name);
             assert_eq!(c["touch"], "pushes", "{c}");
             let r = all.iter().find(|r| r["joint"] == name).unwrap();
-            let turn = number(&r["global_moment"][1]).abs();
-            let left = 0.03 * number(&c["normal"]) - number(&c["tilting"]);
+            let turn = r["global_moment"][1].real().abs();
+            let left = 0.03 * c["normal"].real() - c["tilting"].real();
             assert!(turn <= 2.0 / 3.0 * 0.2 * left * (1.0 + 1e-5), "{turn} {c}");
             turned += turn;
-            normals.push(number(&c["normal"]));
+            normals.push(c["normal"].real());
         }
         near(turned, 1.5, 1e-6);
     }
@@ -217,14 +213,14 @@ fn the_gripper_no_longer_pulls_at_its_part() {
     for (name, sign) in [("4-a", 1.0), ("a-8", -1.0)] {
         let c = contact(&faces, name);
         assert_eq!(c["touch"], "pushes");
-        let (normal, along) = (number(&c["normal"]), number(&c["along_face"]));
+        let (normal, along) = (c["normal"].real(), c["along_face"].real());
         assert!(
             along <= 0.2 * normal * (1.0 + 1e-6) && normal >= 9.81 / 2.0 / 0.2 * (1.0 - 1e-6),
             "{c}"
         );
         let all = faces["reactions"].list();
         let r = all.iter().find(|r| r["joint"] == name).unwrap();
-        (0..3).for_each(|i| part[i] += sign * number(&r["global_force"][i]));
+        (0..3).for_each(|i| part[i] += sign * r["global_force"][i].real());
     }
     // The part is in equilibrium; the free state still bears the forces that stand for it.
     part.iter().for_each(|x| near(*x, 0.0, 1e-9));
@@ -264,7 +260,7 @@ fn contacts_that_push_anyway_change_nothing() {
     ]
     .map(|more| solved(&pressed, more));
     assert_eq!(a["reactions"], b["reactions"]);
-    near(number(&contact(&b, "below")["normal"]), 29.81, 1e-9);
+    near(contact(&b, "below")["normal"].real(), 29.81, 1e-9);
 }
 
 #[test]

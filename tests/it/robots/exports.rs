@@ -3,17 +3,13 @@
 mod physical;
 
 use crate::common::*;
+use crate::robots::read;
 use ozols::redundancy::analysis::Elimination;
 use ozols::robots::formats;
-use ozols::robots::{Options, import};
 use proptest::prelude::*;
 
 fn all() -> impl Iterator<Item = Mechanism> {
     builtin::names().into_iter().map(built_in)
-}
-
-fn none(_: &str) -> std::io::Result<Vec<u8>> {
-    Err(std::io::Error::other("there is no such file"))
 }
 
 // Everything but the spelling survives: a second export is the first, and both analyse alike.
@@ -172,8 +168,7 @@ fn figures(m: &Mechanism) -> (usize, usize) {
 }
 
 fn back(name: &str, text: &str) -> Mechanism {
-    let i = import(name, text.as_bytes(), &none, &Options::default())
-        .unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
+    let i = read(name, &text);
     mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap()
 }
 
@@ -252,8 +247,7 @@ fn graphs() {
         ("t.urdf", formats::write(&m, "urdf").unwrap()),
         ("t.sdf", formats::write(&m, "sdf").unwrap()),
     ] {
-        let i = import(name, text.as_bytes(), &none, &Options::default())
-            .unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let i = read(name, &text);
         assert!(
             mechanism_from_str("t.toml", &i.toml().unwrap()).is_ok(),
             "{text}"

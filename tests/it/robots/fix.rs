@@ -2,17 +2,6 @@
 
 use crate::common::*;
 use crate::robots::folder;
-use std::process::Output;
-
-pub(crate) fn run(words: &[&str]) -> (Option<i32>, String, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = ozols(words).output().unwrap();
-    let text = |b| String::from_utf8(b).unwrap();
-    (status.code(), text(stdout), text(stderr))
-}
 
 pub(crate) fn gripper() -> String {
     folder().join("gripper.xml").display().to_string()
@@ -21,7 +10,7 @@ pub(crate) fn gripper() -> String {
 /// W and σ that lint finds.
 fn figures(file: &str, more: &[&str]) -> (u64, u64) {
     let words = [&["lint", file, "--format", "json"], more].concat();
-    let (_, out, complaint) = run(&words);
+    let (_, out, complaint) = ran(&words);
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{file}: {complaint}"));
     let of = |key: &str| v["files"][0][key].whole();
     assert_eq!(of("redundant"), of("redundant_at_most"), "{file}");
@@ -33,8 +22,7 @@ fn figures(file: &str, more: &[&str]) -> (u64, u64) {
 fn fix_keeps_the_file() {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("fixed.xml").display().to_string();
-    let (code, _, told) = run(&["fix", &gripper(), "-o", &out]);
-    assert_eq!(code, Some(0), "{told}");
+    let (_, told) = done(&["fix", &gripper(), "-o", &out]);
     has(&told, "before: rank 11 of 13 rows, W = 1, redundant 2");
     has(&told, "after:  rank 13 of 13 rows, W = 1, redundant 0");
     let (old, new) = (
@@ -55,15 +43,14 @@ fn fix_keeps_the_file() {
     ] {
         let file = gripper();
         let words = [&["fix", &file, "-o", &out], more].concat();
-        let (code, _, told) = run(&words);
-        assert_eq!(code, Some(0), "{told}");
+        done(&words);
         assert_eq!(figures(&out, &[]), (1, 0));
     }
     assert!(!new.contains("_between"));
     // A place that does not suffice, and one that there is not.
-    let (code, _, told) = run(&["fix", &gripper(), "--at", "connect-1"]);
+    let (code, _, told) = ran(&["fix", &gripper(), "--at", "connect-1"]);
     assert!(code == Some(2) && told.contains("remove 1 of 2"), "{told}");
-    let (code, _, told) = run(&["fix", &gripper(), "--at", "nowhere"]);
+    let (code, _, told) = ran(&["fix", &gripper(), "--at", "nowhere"]);
     assert!(code == Some(2) && told.contains("--at nowhere"), "{told}");
 }
 
@@ -117,8 +104,7 @@ fn fix_lets_go_at_each_kind_of_equality() {
         std::fs::write(&file, &text).unwrap();
         let (w, found) = figures(&file, &[]);
         assert_eq!(found, sigma, "{name}");
-        let (code, _, told) = run(&["fix", &file, "--at", "e", "-o", &out]);
-        assert_eq!(code, Some(0), "{name}: {told}");
+        done(&["fix", &file, "--at", "e", "-o", &out]);
         assert_eq!(figures(&out, &[]), (w, 0), "{name}");
         let new = std::fs::read_to_string(&out).unwrap();
         // Keyframes have the new joints' numbers where MuJoCo looks for them, and classes say nothing of these.
@@ -141,8 +127,7 @@ fn classes_that_limit_joints_do_not_limit_new_ones() {
         let text = four_bar(connect, ["", ""]).replace("range='-2 2' stiffness='3'", class);
         let (file, out) = (path("four.xml"), path("fixed.xml"));
         std::fs::write(&file, text).unwrap();
-        let (code, _, told) = run(&["fix", &file, "-o", &out]);
-        assert_eq!(code, Some(0), "{told}");
+        done(&["fix", &file, "-o", &out]);
         let new = std::fs::read_to_string(&out).unwrap();
         let taken_back = class.replace("'true'", "\"false\"");
         assert!(new.contains(&taken_back), "{new}");
@@ -166,8 +151,7 @@ fn fix_puts_links_in_between() {
     let (w, sigma) = figures(&file, &[]);
     assert_eq!((w, sigma), (1, 3));
     for at in ["j2", "j3", "j4"] {
-        let (code, _, told) = run(&["fix", &file, "--at", at, "-o", &out]);
-        assert_eq!(code, Some(0), "{at}: {told}");
+        done(&["fix", &file, "--at", at, "-o", &out]);
         assert_eq!(figures(&out, &[]), (1, 0), "{at}");
     }
     let (file, side) = (
@@ -176,15 +160,13 @@ fn fix_puts_links_in_between() {
     );
     let more = ["--loops", side.to_str().unwrap()];
     let words = [&["fix", file.to_str().unwrap(), "-o", &out], &more[..]].concat();
-    let (code, _, told) = run(&words);
-    assert_eq!(code, Some(0), "{told}");
+    done(&words);
     assert_eq!(figures(&out, &more), (3, 0));
     let out = path("fixed.sdf");
     for (file, w) in [("four_bar_loop.sdf", 1), ("four_bar_weld.sdf", 1)] {
         let file = folder().join(file);
         let words = ["fix", file.to_str().unwrap(), "--assemble", "-o", &out];
-        let (code, _, told) = run(&words);
-        assert_eq!(code, Some(0), "{told}");
+        done(&words);
         assert_eq!(figures(&out, &["--assemble"]), (w, 0), "{}", file.display());
     }
 }
@@ -218,8 +200,7 @@ fn sdf_of_two_digit_versions_has_axes_in_the_joint() {
         let (file, out) = (path("m.sdf"), path("fixed.sdf"));
         std::fs::write(&file, text).unwrap();
         assert_eq!(figures(&file, &[]), (1, 3), "{version}");
-        let (code, _, told) = run(&["fix", &file, "-o", &out]);
-        assert_eq!(code, Some(0), "{version}: {told}");
+        done(&["fix", &file, "-o", &out]);
         assert_eq!(figures(&out, &[]), (1, 0), "{version}");
         std::fs::read_to_string(out)
             .unwrap()
@@ -245,7 +226,7 @@ fn fix_refuses_what_it_cannot_write() {
     std::fs::write(&main, format!("{head}<include file='part.xml'/>{tail}")).unwrap();
     let out = dir.path().join("out.xml");
     let words = ["fix", main.to_str().unwrap(), "-o", out.to_str().unwrap()];
-    let (code, _, told) = run(&words);
+    let (code, _, told) = ran(&words);
     assert!(
         code == Some(2) && told.contains("in a file that is included"),
         "{told}"
@@ -271,8 +252,7 @@ fn searches_offer_releases_where_loops_close() {
             "search", &file, "--all", "--format", "jsonl", "--forbid", "j1", "--forbid", "j2",
             "--forbid", "j3",
         ];
-        let (code, found, told) = run(&words);
-        assert_eq!(code, Some(0), "{told}");
+        let (found, _) = done(&words);
         let first = found.lines().next().unwrap();
         assert!(first.contains(name), "{first}");
         let words = [
@@ -289,8 +269,7 @@ fn searches_offer_releases_where_loops_close() {
             "-o",
             &out,
         ];
-        let (code, _, told) = run(&words);
-        assert_eq!(code, Some(0), "{told}");
+        let (_, told) = done(&words);
         assert!(
             std::fs::read_to_string(&out).unwrap().contains("e_between"),
             "{told}"
@@ -310,8 +289,7 @@ fn nothing_redundant_is_nothing_to_mend() {
     std::fs::write(&file, text).unwrap();
     for more in [&[][..], &["--variant", "1"], &["--variant", "2"]] {
         let _ = std::fs::remove_file(&out);
-        let (code, _, told) = run(&[&["fix", &file, "-o", &out], more].concat());
-        assert_eq!(code, Some(0), "{more:?}: {told}");
+        let (_, told) = done(&[&["fix", &file, "-o", &out], more].concat());
         has(&told, "nothing is redundant (W = 2");
         assert_eq!(std::fs::read_to_string(&out).unwrap(), text, "{more:?}");
     }
@@ -325,8 +303,7 @@ fn nothing_redundant_is_nothing_to_mend() {
         "-o",
         &out,
     ];
-    let (code, _, told) = run(&[&asked[..], &["--allow-output-change"]].concat());
-    assert_eq!(code, Some(0), "{told}");
+    done(&[&asked[..], &["--allow-output-change"]].concat());
     assert_eq!(figures(&out, &[]), (3, 0));
 }
 
@@ -338,7 +315,7 @@ fn the_next_command_mends() {
     std::fs::copy(folder().join("five_bar.urdf"), &file).unwrap();
     let side = folder().join("five_bar.yaml").display().to_string();
     let next = |words: &[&str]| {
-        let (_, out, told) = run(words);
+        let (_, out, told) = ran(words);
         let line = out
             .lines()
             .find(|l| l.trim_start().starts_with("ozols fix"));
@@ -359,12 +336,11 @@ fn the_next_command_mends() {
         });
         let words: Vec<String> = words.collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        let (code, _, told) = run(&words);
-        assert_eq!(code, Some(0), "{line}: {told}");
+        let (_, told) = done(&words);
         has(&told, "redundant 0");
     }
     // Nothing to mend, nothing to type.
-    let (_, out, _) = run(&[
+    let (_, out, _) = ran(&[
         "lint",
         &dir.path().join("five bar-fixed.urdf").display().to_string(),
         "--loops",
@@ -384,13 +360,13 @@ fn joints_that_an_actuator_pulls_stay_as_they_are() {
         <actuator><general name='fingers' tendon='split'/></actuator></mujoco>";
     std::fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
     let out = dir.path().join("out.xml").display().to_string();
-    let (code, _, told) = run(&["fix", &file, "-o", &out]);
+    let (code, _, told) = ran(&["fix", &file, "-o", &out]);
     assert!(code == Some(0) && !told.contains("crank_joint"), "{told}");
     assert_eq!(figures(&out, &[]), (1, 0));
-    let (_, found, _) = run(&["lint", &file]);
+    let (_, found, _) = ran(&["lint", &file]);
     assert!(!found.contains("let right_crank_joint"), "{found}");
     let named = ["--at", "right_crank_joint", "--at", "left_crank_joint"];
-    let (code, _, told) = run(&[&["fix", &file, "-o", &out][..], &named].concat());
+    let (code, _, told) = ran(&[&["fix", &file, "-o", &out][..], &named].concat());
     assert!(
         code == Some(0) && told.contains("let left_crank_joint slide"),
         "{told}"

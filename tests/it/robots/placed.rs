@@ -2,13 +2,13 @@
 
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
-use crate::robots::none;
+use crate::robots::read;
 use ozols::geom::vector::{Vector, length, real, sub};
+use ozols::robots::Imported;
 use ozols::robots::formats;
-use ozols::robots::{Imported, Options, import};
 
 fn taken(name: &str, text: &str) -> Imported {
-    import(name, text.as_bytes(), &none, &Options::default()).unwrap_or_else(|e| panic!("{e}"))
+    read(name, &text)
 }
 
 fn has(text: &str, parts: &[&str]) {

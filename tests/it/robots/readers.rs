@@ -3,14 +3,9 @@
 
 use crate::common::{but, cases, has, has_all, run, run_on};
 use crate::robots::mjcf::{mjcf, toml_of};
-use crate::robots::{figures, folder, none, refused};
+use crate::robots::{figures, folder, none, read, refused};
 use ozols::file::schema::Coordinate;
-use ozols::robots::{Imported, Options, import};
-
-fn read(name: &str, text: &str) -> Imported {
-    import(name, text.as_bytes(), &none, &Options::default())
-        .unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
+use ozols::robots::{Options, import};
 
 /// W and σ.
 fn w_sigma(name: &str, text: &str) -> (i64, i64) {
@@ -370,7 +365,7 @@ fn loops_that_rounding_leaves_open() {
             plain(0.299, 1.4501),
         )
     };
-    let rounded = import("m.xml", text(3e-5).as_bytes(), &none, &Options::default()).unwrap();
+    let rounded = read("m.xml", &text(3e-5));
     assert_eq!(figures(&rounded, 1e-3)[4..], [1, 1]);
     let doubts = rounded.report.doubts();
     has(&doubts, "1 loop: open by");

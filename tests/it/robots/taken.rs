@@ -1,7 +1,6 @@
 //! Robots: what other readers take is taken, and what is left out or not as drawn is said, by `lint` too.
 
 use crate::common::*;
-use crate::robots::fix::run;
 use crate::robots::mjcf::mjcf;
 
 /// W, σ and the notes of `lint` on a text.
@@ -63,7 +62,7 @@ fn lights_and_floors_are_no_mechanisms() {
     ] {
         let file = at.path().join("w.sdf");
         std::fs::write(&file, world(uri)).unwrap();
-        let (found, out, err) = run(&["lint", file.to_str().unwrap()]);
+        let (found, out, err) = ran(&["lint", file.to_str().unwrap()]);
         assert_eq!(found, Some(code), "{uri}: {out}{err}");
     }
 }

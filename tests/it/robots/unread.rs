@@ -1,7 +1,6 @@
 //! Loops and couplings that stand where a reader does not look first: they are read, or they are reported and counted.
 
 use crate::common::*;
-use crate::robots::fix::run;
 use crate::robots::mjcf::mjcf;
 use ozols::robots::{Options, import};
 use std::io::{Error, Result};
@@ -186,17 +185,16 @@ fn loops_beside_a_description_are_named() {
         ),
     );
     let side = put("robot.yaml", "closed_loop: [[tip, nowhere]]\ntype: [6d]\n");
-    let (code, out, _) = run(&["lint", &urdf]);
-    assert_eq!(code, Some(0), "another robot's: {out}");
+    done(&["lint", &urdf]);
     std::fs::write(&side, "closed_loop: [[tip, base]]\ntype: [3d]\n").unwrap();
-    let (code, out, _) = run(&["lint", &urdf]);
+    let (code, out, _) = ran(&["lint", &urdf]);
     assert!(
         code == Some(1) && out.contains("--loops robot.yaml") && out.contains("3 rows"),
         "{out}"
     );
     // With the file every command that takes a description reads the same.
     let with = ["--loops", &side, "--format", "json"];
-    let (code, out, err) = run(&[&["analyze", &urdf], &with[..]].concat());
+    let (code, out, err) = ran(&[&["analyze", &urdf], &with[..]].concat());
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
     assert_eq!(
         (code, v["assumptions"].as_array().map(Vec::len)),
@@ -206,7 +204,7 @@ fn loops_beside_a_description_are_named() {
         v["states"][0]["mobility"].clone(),
         v["states"][0]["redundant"].clone(),
     );
-    let (_, out, _) = run(&[&["lint", &urdf], &with[..]].concat());
+    let (_, out, _) = ran(&[&["lint", &urdf], &with[..]].concat());
     let v: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(
         (&v["files"][0]["mobility"], &v["files"][0]["redundant"]),
@@ -225,11 +223,10 @@ fn loops_beside_a_description_are_named() {
             .iter()
             .map(|w| if *w == "FILE" { urdf.as_str() } else { w })
             .collect();
-        let (code, _, err) = run(&[&words[..], &["--loops", &side]].concat());
-        assert_eq!(code, Some(0), "{words:?}: {err}");
+        let (_, err) = done(&[&words[..], &["--loops", &side]].concat());
         assert!(!err.contains("robot.yaml beside"), "{words:?}: {err}");
     }
-    let (code, _, err) = run(&["analyze", "four-bar", "--loops", &side]);
+    let (code, _, err) = ran(&["analyze", "four-bar", "--loops", &side]);
     assert!(
         code == Some(2) && err.contains("--loops is for robot descriptions"),
         "{err}"

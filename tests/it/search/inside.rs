@@ -21,14 +21,9 @@ fn a_list_in_little_room_is_the_same() {
 fn steps_of_a_list_grow_no_faster_than_its_length_and_its_logarithm() {
     type Walk = fn(&Question, &Diagrams, usize) -> Walked;
     let (mut seen, walks): (_, [Walk; 2]) = (0, [walked_for_variants, walked_for_ideas]);
-    for name in [
-        "gripper-10",
-        "gripper-10-redesign",
-        "four-bar",
-        "scissor-lift-3",
-        "stewart-gough",
-        "gripper-slider-two-fingers",
-    ] {
+    for name in words(
+        "gripper-10 gripper-10-redesign four-bar scissor-lift-3 stewart-gough gripper-slider-two-fingers",
+    ) {
         let m = built_in(name);
         let exact = exact_field(&m, 0).unwrap();
         let question = Question::new(exact, &m, Conditions::default()).unwrap();

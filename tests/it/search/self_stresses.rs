@@ -118,14 +118,7 @@ fn planar_counting_counts_what_moves_in_the_plane() {
 /// Every joint of every self-stress is listed with its share, and the shares add up; the text lists the same joints.
 #[test]
 fn shares_of_a_self_stress_add_up() {
-    for name in [
-        "gripper-10",
-        "gripper-10-loaded",
-        "four-bar",
-        "bennett",
-        "delta-parallelograms",
-        "sarrus",
-    ] {
+    for name in words("gripper-10 gripper-10-loaded four-bar bennett delta-parallelograms sarrus") {
         let found = json(&["analyze", name, "--format", "json"]);
         let text = out(&["analyze", name]);
         for state in found["states"].list() {

@@ -138,18 +138,10 @@ fn quickly(m: &Mechanism, state: StateId) -> Vec<Line> {
 #[test]
 fn single_changes_are_those_of_the_slow_way() {
     let (mut with, mut usual) = (0, 0);
-    for name in [
-        "gripper-10",
-        "gripper-10-planar",
-        "four-bar",
-        "bennett",
-        "lever-gripper",
-        "parallelogram-3-rods",
-        "sarrus",
-        "door-two-hinges",
-        "double-banana",
-        "tongs",
-    ] {
+    for name in words(
+"gripper-10 gripper-10-planar four-bar bennett lever-gripper parallelogram-3-rods sarrus door-two-hinges
+            double-banana tongs",
+) {
         let m = built_in(name);
         for state in m.state_ids() {
             let quick = quickly(&m, state);
@@ -280,13 +272,7 @@ fn commands_can_be_typed() {
 
 #[test]
 fn analyses_fit_the_terminal() {
-    for name in [
-        "gripper-10",
-        "lever-gripper",
-        "stewart-gough",
-        "delta",
-        "bennett",
-    ] {
+    for name in words("gripper-10 lever-gripper stewart-gough delta bennett") {
         let m = built_in(name);
         let states: Vec<StateId> = m.state_ids().collect();
         let found = analyse(&m, &states, Method::Auto).unwrap();

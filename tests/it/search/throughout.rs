@@ -94,21 +94,10 @@ fn counts_along_the_motion_are_those_of_the_trial() {
 
 #[test]
 fn variants_last_whose_figures_are_the_same_in_other_poses() {
-    for name in [
-        "watt-six-bar",
-        "sarrus",
-        "altmann",
-        "hooke-double",
-        "tripteron",
-        "4-upu",
-        "exechon",
-        "delta",
-        "two-bennetts",
-        "roberval-balance",
-        "oldham",
-        "geared-five-bar",
-        "five-bar",
-    ] {
+    for name in words(
+"watt-six-bar sarrus altmann hooke-double tripteron 4-upu exechon delta two-bennetts roberval-balance oldham
+            geared-five-bar five-bar",
+) {
         assert_as_in_poses(&ozols::built_in(name).unwrap(), 4);
     }
 }

@@ -28,12 +28,7 @@ fn every_builtin_mechanism_is_searched() {
 #[test]
 fn usual_options_count_as_stated_ones() {
     let usual = "cylindrical,universal,spherical,cylindrical-universal,sphere-in-cylinder";
-    for name in [
-        "jansen-leg",
-        "scissor-lift-3",
-        "miura-ori",
-        "roberts-cognates",
-    ] {
+    for name in words("jansen-leg scissor-lift-3 miura-ori roberts-cognates") {
         let args = ["search", name, "--count", "--format", "json", "-q"];
         let (own, _) = answer(&args);
         let (stated, _) = answer(&[&args[..], &["--options", usual]].concat());

@@ -1,7 +1,7 @@
 //! The door: the token, the host, pages of others, sizes and paths.
 
 use super::served::Served;
-use crate::common::has_all;
+use crate::common::{has_all, words};
 use serde_json::json;
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -125,15 +125,10 @@ fn no_path_leads_out_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("secret.toml"), "name = \"secret\"\n").unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
-    for path in [
-        "secret.toml",
-        "../secret.toml",
-        "..%2fsecret.toml",
-        "picture/../../secret.toml",
-        "picture/secret.svg",
-        "export/../secret.toml",
-        "//etc/passwd",
-    ] {
+    for path in words(
+"secret.toml ../secret.toml ..%2fsecret.toml picture/../../secret.toml picture/secret.svg export/../secret.toml
+            //etc/passwd",
+) {
         let (code, body) = s.get(path);
         assert_eq!(code, 404, "{path}");
         assert!(!body.contains("secret\""), "{body}");

@@ -1,6 +1,6 @@
 //! Cams that push with several moments.
 
-use super::{number, run_file, small_json, small_with};
+use super::{run_file, small_json, small_with};
 use crate::common::{Json, has, near};
 
 /// Moments by piece: their work by hand, told in the text and in JSON, and fed to every swing that comes to its latch.
@@ -21,22 +21,22 @@ fn a_cam_of_several_moments_feeds_their_work() {
     let design = &value["design"];
     // 18° of 0.3 and of 1 N·m, and 18° of 0.1 up to the latch at 45°.
     let work = 1.4 * 18f64.to_radians();
-    near(number(&design["feed"]), work, 1e-12);
+    near(design["feed"].real(), work, 1e-12);
     let pieces = design["feed_moments"].list();
     for (piece, (from, moment)) in pieces.iter().zip([(-9f64, 0.3), (9.0, 1.0), (27.0, 0.1)]) {
-        near(number(&piece["from"]), from.to_radians(), 1e-12);
-        near(number(&piece["moment"]), moment, 1e-12);
+        near(piece["from"].real(), from.to_radians(), 1e-12);
+        near(piece["moment"].real(), moment, 1e-12);
     }
     let steps = design["programme"].list();
     for step in steps.iter().filter(|s| s["swing"]["end"] == "latched") {
-        near(number(&step["swing"]["energy"]["fed"]), work, 1e-12);
+        near(step["swing"]["energy"]["fed"].real(), work, 1e-12);
     }
     // An even push has one piece.
     let even = small_json(&small_with("swings = 5", "feed_energy = 0.4"), 0);
     let pieces = even["design"]["feed_moments"].list();
     assert_eq!(pieces.len(), 1);
     near(
-        number(&pieces[0]["moment"]),
+        pieces[0]["moment"].real(),
         0.4 / std::f64::consts::FRAC_PI_4,
         1e-12,
     );

@@ -1,6 +1,7 @@
 //! Certificates made false, each in a way that has to be noticed.
 
 use super::{certified, field, sparse};
+use crate::common::words;
 use num_rational::BigRational;
 use ozols::linalg::number_ring::{Element, NumberRing};
 use ozols::rank::exact::certificate::{Budget, Certificate, certify_matrix};
@@ -174,23 +175,10 @@ fn corrupted_certificates_of_mechanisms_are_rejected() {
         }
     }
     // Each kind of flaw was met, but for those that only a small prime or another matrix brings about.
-    for part in [
-        "Shape",
-        "RankTooLarge",
-        "FieldDiffers",
-        "NotAField",
-        "NotPrime",
-        "Images",
-        "Relation",
-        "PivotCount",
-        "PivotIndices",
-        "KernelCount",
-        "FreeColumns",
-        "KernelIndices",
-        "KernelNumber",
-        "NotReduced",
-        "NotInKernel",
-    ] {
+    for part in words(
+"Shape RankTooLarge FieldDiffers NotAField NotPrime Images Relation PivotCount PivotIndices KernelCount
+            FreeColumns KernelIndices KernelNumber NotReduced NotInKernel",
+) {
         assert!(flaws.contains(part), "{part}");
     }
 }

@@ -108,19 +108,10 @@ fn platforms_on_rods_are_proven_by_their_multiplicity() {
 /// Single contours of up to six hinges that counting gives no motion: not stopped up to the order beyond which nothing can.
 #[test]
 fn overconstrained_contours_are_proven_by_their_multiplicity() {
-    for name in [
-        "bennett",
-        "goldberg-5r",
-        "goldberg-6r",
-        "myard-5r",
-        "bricard-box",
-        "bricard-line-symmetric",
-        "bricard-plane-symmetric",
-        "bricard-trihedral",
-        "schatz-turbula",
-        "altmann",
-        "two-bennetts",
-    ] {
+    for name in words(
+"bennett goldberg-5r goldberg-6r myard-5r bricard-box bricard-line-symmetric bricard-plane-symmetric
+            bricard-trihedral schatz-turbula altmann two-bennetts",
+) {
         assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
     }
     assert_eq!(proof("bennett-perturbed"), None);
@@ -129,15 +120,10 @@ fn overconstrained_contours_are_proven_by_their_multiplicity() {
 /// Pins in a plane beyond need, whose equal lengths no group knows of.
 #[test]
 fn redundant_rods_in_a_plane_are_proven_by_their_multiplicity() {
-    for name in [
-        "parallelogram-3-rods",
-        "parallelogram-3-rods-planar",
-        "kempe-translator",
-        "roberts-cognates",
-        "dixon-k33",
-        "dixon-k44",
-        "hoberman-ring-6",
-    ] {
+    for name in words(
+"parallelogram-3-rods parallelogram-3-rods-planar kempe-translator roberts-cognates dixon-k33 dixon-k44
+            hoberman-ring-6",
+) {
         assert_eq!(proof(name), Some(Proof::Multiplicity), "{name}");
     }
 }

@@ -54,14 +54,10 @@ fn same(name: &str, exact: &Mechanism, decimals: &[usize]) -> [usize; 2] {
 #[test]
 fn mirror_pairs_of_built_in_grippers_hold_in_turned_files() {
     let mut sum = [0, 0];
-    for name in [
-        "lever-gripper",
-        "gripper-slider-two-fingers",
-        "gripper-slider-two-fingers-balls",
-        "lever-slot-gripper",
-        "gripper-10-redesign",
-        "parallelogram-gripper",
-    ] {
+    for name in words(
+"lever-gripper gripper-slider-two-fingers gripper-slider-two-fingers-balls lever-slot-gripper
+            gripper-10-redesign parallelogram-gripper",
+) {
         let exact = bare(built_in(name));
         let [same, all] = same(name, &exact, &[4, 6, 9, 12]);
         sum = [sum[0] + same, sum[1] + all];

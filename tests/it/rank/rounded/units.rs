@@ -38,12 +38,7 @@ fn units(m: &Mechanism) -> [f64; 2] {
 /// is off by more than all of that together [Weyl].
 #[test]
 fn what_rounding_can_do_is_that_of_all_hinges_together() {
-    for name in [
-        "bennett",
-        "four-bar",
-        "parallelogram-3-rods",
-        "watt-six-bar",
-    ] {
+    for name in words("bennett four-bar parallelogram-3-rods watt-six-bar") {
         let m = measured(name, 9);
         assert!(m.joints.iter().all(|j| j.joint_type == JointType::Revolute));
         let closure = Closure::new(&Reals, &m, StateId::FREE).unwrap();
@@ -134,12 +129,7 @@ fn what_was_understood_is_counted_in_groups_and_units() {
 #[test]
 fn what_is_settled_has_the_rank_of_its_verdict() {
     let (mut open, mut closed) = (0, 0);
-    for name in [
-        "bennett",
-        "gripper-10",
-        "parallelogram-3-rods",
-        "wren-platform",
-    ] {
+    for name in words("bennett gripper-10 parallelogram-3-rods wren-platform") {
         for decimals in [4, 6, 9] {
             let m = measured(name, decimals);
             let found = settle(&m, &[StateId::FREE]).unwrap();

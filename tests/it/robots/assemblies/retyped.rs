@@ -2,8 +2,7 @@
 
 use super::make::{HINGES, fcstd, four_bar};
 use super::{figures, read};
-use crate::common::has;
-use crate::robots::fix::run;
+use crate::common::*;
 use ozols::redundancy::release::Release;
 use ozols::robots::{Options, fix};
 use std::io::{Cursor, Read};
@@ -29,8 +28,7 @@ fn fix_changes_types_and_nothing_else() {
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
     std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    let (code, _, said) = run(&["fix", &old, "-o", &new]);
-    assert_eq!(code, Some(0), "{said}");
+    done(&["fix", &old, "-o", &new]);
     let [before, after] = [&old, &new].map(|p| std::fs::read(p).unwrap());
     let i = read("fixed.FCStd", &after, &Options::default());
     assert_eq!(figures(&i), (1, 0));
@@ -44,8 +42,7 @@ fn fix_changes_types_and_nothing_else() {
     assert_eq!(is.matches(" Touched=\"1\"").count(), 2);
     assert_eq!(is.replace(" Touched=\"1\"", "").len(), was.len());
     // What is fixed is written as it is.
-    let (code, _, said) = run(&["fix", &new, "-o", &path("again.FCStd")]);
-    assert_eq!(code, Some(0), "{said}");
+    done(&["fix", &new, "-o", &path("again.FCStd")]);
     let again = std::fs::read(path("again.FCStd")).unwrap();
     assert_eq!(members(&again), members(&after));
 }
@@ -56,18 +53,17 @@ fn fix_keeps_to_the_joints_that_may_be_changed() {
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
     std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
-    let (code, _, said) = run(&["fix", &old, "--at", "B", "--at", "C", "-o", &new]);
-    assert_eq!(code, Some(0), "{said}");
+    done(&["fix", &old, "--at", "B", "--at", "C", "-o", &new]);
     let i = read("x", &std::fs::read(&new).unwrap(), &Options::default());
     assert_eq!(figures(&i), (1, 0));
     for j in &i.mechanism.joints {
         let changed = j.joint_type.name() != "revolute";
         assert_eq!(changed, ["B", "C"].contains(&j.id.as_str()), "{}", j.id);
     }
-    let (code, _, said) = run(&["fix", &old, "--at", "B", "-o", &path("no.FCStd")]);
+    let (code, _, said) = ran(&["fix", &old, "--at", "B", "-o", &path("no.FCStd")]);
     assert_eq!(code, Some(2));
     has(&said, "no choice of joint types");
-    let (code, _, said) = run(&["fix", &old, "--at", "Z"]);
+    let (code, _, said) = ran(&["fix", &old, "--at", "Z"]);
     assert_eq!(code, Some(2));
     has(&said, "there is no such joint");
 }
@@ -86,7 +82,7 @@ fn types_that_freecad_has_not_are_refused() {
         "--options",
         "sphere-in-cylinder",
     ];
-    let (code, _, said) = run(&words);
+    let (code, _, said) = ran(&words);
     assert_eq!(code, Some(2), "{said}");
     has(&said, "has no joint type");
 }
@@ -100,8 +96,7 @@ fn export_writes_the_owners_document() {
     std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
     for (more, out) in [(&["--idea", "1"][..], &new), (&[], &same)] {
         let words = [&["export", &old, "--to", "fcstd", "-o", out], more].concat();
-        let (code, _, said) = run(&words);
-        assert_eq!(code, Some(0), "{said}");
+        done(&words);
     }
     let [old_bytes, new_bytes, same_bytes] = [&old, &new, &same].map(|p| std::fs::read(p).unwrap());
     assert_eq!(members(&same_bytes), members(&old_bytes));
@@ -110,7 +105,7 @@ fn export_writes_the_owners_document() {
         ("gripper-10", "fcstd", "is not a file"),
         (old.as_str(), "asmt", "is none"),
     ] {
-        let (code, _, told) = run(&["export", file, "--to", to]);
+        let (code, _, told) = ran(&["export", file, "--to", to]);
         assert_eq!(code, Some(2));
         assert!(told.contains(said), "{told}");
     }
@@ -129,10 +124,10 @@ fn asmt_files_get_other_labels() {
     let second = text[from..at].replace("\tJ\n", "\tK\n");
     let twice = format!("{}{second}{}", &text[..at], &text[at..]);
     std::fs::write(&old, &twice).unwrap();
-    let (code, out, said) = run(&["lint", &old]);
+    let (code, out, said) = ran(&["lint", &old]);
     assert_eq!(code, Some(1), "{said}");
     has(&out, "5 redundant constraints");
-    let (code, _, said) = run(&["fix", &old, "-o", &path("y.asmt")]);
+    let (code, _, said) = ran(&["fix", &old, "-o", &path("y.asmt")]);
     assert_eq!(code, Some(2));
     has(&said, "no choice of joint types");
     let i = read("x.asmt", twice.as_bytes(), &Options::default());

@@ -5,8 +5,7 @@ use super::make::{
     joint_type, label, number, packed, part, property, reference,
 };
 use super::{figures, read, refused};
-use crate::common::{but, has};
-use crate::robots::fix::run;
+use crate::common::*;
 use ozols::robots::{Options, import};
 
 fn changed(objects: &[Object], name: &str, from: &str, to: &str) -> Vec<Object> {
@@ -297,7 +296,7 @@ fn bad_files_end_with_2() {
         ["fix", &path],
         ["check", &path],
     ] {
-        let (code, _, said) = run(&command);
+        let (code, _, said) = ran(&command);
         assert_eq!(code, Some(2), "{command:?} {said}");
         has(&said, "x.FCStd");
     }

@@ -164,11 +164,7 @@ fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
     ];
     let brute = [&small[..], &["--method", "brute"]].concat();
     let (a, b) = (searched(&path, &small), searched(&path, &brute));
-    for key in [
-        "determinate",
-        "admissible",
-        "admissible_by_mobility_and_changes",
-    ] {
+    for key in words("determinate admissible admissible_by_mobility_and_changes") {
         assert_eq!(a[key], b[key], "{key}");
     }
     assert!(count(&a["admissible"]) > 0, "{a}");
