@@ -127,20 +127,6 @@ fn allow_forbid_hold_narrow_the_space() {
 // The same every time.
 
 #[test]
-fn threads_do_not_matter() {
-    for format in ["text", "json", "csv"] {
-        let by = |threads| {
-            out(&format!(
-                "search gripper-10 --threads {threads} --format {format}"
-            ))
-        };
-        let one = by("1");
-        assert_eq!(one, by("2"), "{format}");
-        assert_eq!(one, by("8"), "{format}");
-    }
-}
-
-#[test]
 fn samples_repeat_with_the_seed() {
     let sample = |seed| {
         out(&format!(

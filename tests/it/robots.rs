@@ -102,7 +102,7 @@ pub(crate) const ARM: &str = r#"<robot name="arm">
 
 #[test]
 fn poses_are_composed() {
-    let i = read("arm.urdf", &ARM);
+    let i = read("arm.urdf", ARM);
     for line in [
         "point = [-0.2, 0.1, 1]",
         "axis = [0, 1, 0]",

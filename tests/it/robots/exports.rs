@@ -168,7 +168,7 @@ fn figures(m: &Mechanism) -> (usize, usize) {
 }
 
 fn back(name: &str, text: &str) -> Mechanism {
-    let i = read(name, &text);
+    let i = read(name, text);
     mechanism_from_str("x.toml", &i.toml().unwrap()).unwrap()
 }
 

@@ -8,7 +8,7 @@ use ozols::robots::Imported;
 use ozols::robots::formats;
 
 fn taken(name: &str, text: &str) -> Imported {
-    read(name, &text)
+    read(name, text)
 }
 
 fn has(text: &str, parts: &[&str]) {
