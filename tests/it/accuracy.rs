@@ -281,7 +281,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
     assert_eq!(svgs, 9);
 
     let read = |name: &str| std::fs::read_to_string(at.join(name)).unwrap();
-    offsets_beyond_what_digits_allow_are_kept(&rows(&read("stability-offsets.csv")));
+    offsets_beyond_what_digits_allow_are_kept(&rows(&read("stability-digits.csv")));
     exact_ranks_do_not_depend_on_the_unit(&rows(&read("stability-scale.csv")));
     errors_fall_with_the_prime(&rows(&read("stability-prime.csv")));
     // Displaced ones and toggles: exact ranks are right about all of them.

@@ -60,6 +60,7 @@ fn verdicts_come_first_and_primes_last() {
 
 /// A slide across a frame, with an output that does not move with it.
 fn slide(axis: &str) -> String {
+    let axis = axis.trim_matches(['[', ']']);
     let joints = format!(
         "hinge | 0 1 | revolute | 0, 0, 0 | 0, 0, 1\nslide | 0 2 | prismatic | 1, 0, 0 | {axis}"
     );

@@ -34,9 +34,12 @@ impl Place {
         #[allow(clippy::cast_possible_truncation, reason = "some metres")]
         let thousandths = point.map(|x| (x * f64::from(FINE)).round() as i64);
         let part = |whole: i64| i32::try_from(whole).unwrap_or(i32::MAX);
+        let (fine, half) = (i64::from(FINE), i64::from(FINE / 2));
+        // The nearest whole millimetre.
+        let whole = |x: i64| (x + half).div_euclid(fine);
         Place {
-            whole: thousandths.map(|x| part(x / i64::from(FINE))),
-            fine: thousandths.map(|x| part(x % i64::from(FINE))),
+            whole: thousandths.map(|x| part(whole(x))),
+            fine: thousandths.map(|x| part(x - fine * whole(x))),
             thirds: 0,
         }
     }

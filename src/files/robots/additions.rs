@@ -6,7 +6,7 @@ use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::problem::{Read, known, unknown_name};
 use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeSet;
 
 /// Rows that an element of unknown meaning may hold: all that two links can be held by.

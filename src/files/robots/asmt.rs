@@ -7,7 +7,8 @@ use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
 use crate::robots::problem::{Read, bad_value, known, missing, unknown_name, unknown_word};
 use crate::robots::warning::{Options, Reader};
-use crate::robots::xml::{Document, Element};
+use crate::robots::xml::Document;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// What the first line of a file begins with: that of OndselSolver, whose files are in millimetres, and the old one.

@@ -16,7 +16,7 @@ use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::problem::Read;
 use crate::robots::warning::Report;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A joint between two links, or a constraint that closes a loop.

@@ -5,7 +5,7 @@ use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::mechanism::series_of_single_joints::unique;
 use crate::robots::problem::{Read, whole};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 

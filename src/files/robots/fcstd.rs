@@ -15,7 +15,8 @@ use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
 use crate::robots::problem::{Read, known, too_many, unknown_name, whole};
 use crate::robots::warning::{Options, Reader};
-use crate::robots::xml::{self, Document, Element};
+use crate::robots::xml::element::Element;
+use crate::robots::xml::{self, Document};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The member of the archive that says what objects there are.

@@ -25,7 +25,8 @@ use crate::robots::mechanism::{
 };
 use crate::robots::problem::{ExportError, whole};
 use crate::robots::warning::{Options, Reader, Report};
-use crate::robots::xml::{self, Document, Element};
+use crate::robots::xml::element::Element;
+use crate::robots::xml::{self, Document};
 use crate::robots::{asmt, foreign};
 
 /// A mechanism and how it came about.

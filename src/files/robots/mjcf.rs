@@ -18,7 +18,8 @@ use crate::robots::mjcf::context::{Context, compiler};
 use crate::robots::mjcf::defaults::{Defaults, Lookup};
 use crate::robots::problem::{Read, bad_value};
 use crate::robots::warning::{Options, Reader};
-use crate::robots::xml::{Document, Element};
+use crate::robots::xml::Document;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// Sections that hold nothing together: what equalities take of them is looked up there.

@@ -21,7 +21,8 @@ use crate::robots::sdf::scene::{
     BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
 };
 use crate::robots::warning::{Options, Reader};
-use crate::robots::xml::{Document, Element};
+use crate::robots::xml::Document;
+use crate::robots::xml::element::Element;
 
 /// Reads an `<sdf>`.
 pub(crate) fn read(

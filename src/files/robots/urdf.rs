@@ -11,7 +11,8 @@ use crate::robots::additions::{ball_constraint, couple, leave_out, named};
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
 use crate::robots::problem::{Read, bad_value, known, unknown_name};
 use crate::robots::warning::{Options, Reader};
-use crate::robots::xml::{Document, Element};
+use crate::robots::xml::Document;
+use crate::robots::xml::element::Element;
 
 /// What is read of a joint.
 const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];

@@ -1,8 +1,6 @@
 //! XML as a flat arena with the place of every element and attribute, bounded in size, depth and number.
 
-mod element;
-
-pub(crate) use element::Element;
+pub(crate) mod element;
 
 use crate::file::problem::ProblemKind;
 use crate::geom::vector::Vector;
@@ -166,10 +164,6 @@ impl Document {
             ));
         }
         Ok(())
-    }
-
-    pub(crate) fn element(&self, id: usize) -> Element<'_> {
-        Element { document: self, id }
     }
 }
 

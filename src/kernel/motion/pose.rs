@@ -161,7 +161,6 @@ impl Pose {
     }
 
     /// Returns the file's pose with one column tied to another: it moves by `ratio` where the other moves by 1, each in its own unit.
-    #[must_use]
     pub fn tied(mut self, other: usize, column: usize, ratio: f64) -> Pose {
         let size = ratio.hypot(1.0);
         self.couplings

@@ -5,7 +5,7 @@ pub(in crate::search) mod completing_sets;
 mod estimates;
 mod known_spaces;
 pub(in crate::search) mod known_variants;
-mod lanes;
+pub(in crate::search) mod lanes;
 pub mod orders;
 mod path_tree;
 pub(in crate::search) mod self_stress;
@@ -17,9 +17,9 @@ use crate::search::answer::estimate::Estimate;
 use crate::search::answer::proven_cheapest::{UpTo, cost_of, up_to};
 use crate::search::build::at_most::at_most;
 use crate::search::build::estimates::estimates;
-use crate::search::build::lanes::Lanes;
+use crate::search::build::lanes::{Lanes, in_self_stress_space};
 use crate::search::build::orders::{Orders, one_diagram, orders};
-use crate::search::build::self_stress::{Wanted, in_self_stress_space, limits, nothing};
+use crate::search::build::self_stress::{Wanted, limits, nothing};
 use crate::search::build::spanning_halves::Halves;
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
@@ -220,11 +220,15 @@ fn built(
     let halves = Halves::new(question, order, limits, wanted);
     let space = &wanted.model(question).space;
     let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
-    match whole {
+    let mut found = match whole {
         Some(whole) => whole,
         None if few.nodes < limits.nodes => within(limits, progress),
         None => built,
+    };
+    if found.stop.is_cut() && cancelled() {
+        found.stop = Stop::Interrupted;
     }
+    found
 }
 
 /// Returns the cheapest admissible variants where they are wanted and not all are known.

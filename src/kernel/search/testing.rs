@@ -3,8 +3,9 @@
 use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
 use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
+use super::build::lanes::in_self_stress_space;
 use super::build::orders::{one_diagram, orders};
-use super::build::self_stress::{Wanted, in_self_stress_space, limits};
+use super::build::self_stress::{Wanted, limits};
 use super::build::spanning_halves::Halves;
 use super::build::two_sided::two_sided;
 use super::build::{Diagrams, build};

@@ -105,14 +105,14 @@ fn both_ends_of_what_is_built_in_meet() {
     assert!(edges > 1000, "{edges}");
 }
 
-/// From one end it takes 32,423 and 32,693 nodes.
+/// From one end it takes more than 20,000 nodes.
 #[test]
 fn coupled_contours_in_space_are_few_nodes() {
     let text = ladder(3, 1, true);
     let both = search(&text, within(20_000, true));
     assert_eq!(both.1.stop(), Stop::Exhausted);
     let nodes = [&both.1.determinate, &both.1.admissible].map(|d| d.nodes);
-    assert_eq!(nodes, [55, 59]);
+    assert_eq!(nodes, [51, 67]);
     assert!(is_minimal(&both.1.determinate) && is_minimal(&both.1.admissible));
     assert!(assert_same(pairs(&text, true), &text) > 400);
 }
@@ -159,7 +159,7 @@ fn the_twin_says_the_same_of_single_variants() {
 #[test]
 fn four_coupled_contours_in_space_are_counted() {
     let (s, d) = search(&ladder(4, 1, true), within(100_000, false));
-    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 76));
+    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 72));
     let counted = s.counts(&d.determinate, false).total;
     assert_eq!(counted, BigUint::from(49_513_456u32));
 }
@@ -168,7 +168,7 @@ fn four_coupled_contours_in_space_are_counted() {
 #[test]
 fn five_coupled_contours_in_space_are_counted() {
     let (s, d) = search(&ladder(5, 1, true), within(1_000_000, false));
-    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 97));
+    assert_eq!((d.stop(), d.determinate.nodes), (Stop::Exhausted, 93));
     let counted = s.counts(&d.determinate, false).total;
     assert_eq!(counted, BigUint::from(2_831_284_426u64));
 }

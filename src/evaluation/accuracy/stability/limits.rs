@@ -12,7 +12,8 @@ use crate::file::text::mechanism_from_str;
 use crate::geom::exact::ExactField;
 use crate::geom::expr::Expr;
 use crate::linalg::modp::is_prime;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::exact::modular;
 use crate::rank::method::{MobilityMethod, registry};
 use crate::rank::numeric::Elimination;
@@ -133,12 +134,14 @@ pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
 /// The contours of the rows of four-bars whose points are drawn at random.
 const CONTOURS: u32 = 3;
 
-/// The rank modulo a random prime of 8 to 61 bits: of a row of four-bars whose points are drawn at random, and of built-in
+/// The rank modulo a random prime of 8 to 61 bits: of a rigid row of four-bars whose points are drawn at random, and of built-in
 /// mechanisms of rational coordinates. A minor of the former is of degree 2 a contour in the points, which the bound of Schwartz
 /// and Zippel speaks of.
 pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     const BITS: [u32; 10] = [8, 10, 12, 14, 16, 20, 24, 32, 48, 61];
-    let chain = lattice::mechanism(LatticeKind::FourBars, CONTOURS as usize);
+    let mut chain = lattice::mechanism(LatticeKind::FourBars, CONTOURS as usize);
+    // A row whose first crank is fixed is rigid: its rank is less where a minor vanishes.
+    chain.joints[JointId::new(0)].joint_type = JointType::Fixed;
     let largest = ExactField::of_prime((1 << 61) - 1);
     let rational = |c: &&Case| Closure::new(&largest, &c.mechanism, c.state).is_ok();
     let cases: Vec<&Case> = cases.iter().filter(rational).collect();
@@ -185,7 +188,7 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             }
             let case = cases.get(i % cases.len().max(1));
             vec![
-                ask(&drawn, StateId::FREE, 1),
+                ask(&drawn, StateId::FREE, 0),
                 case.and_then(|c| ask(&c.mechanism, c.state, c.truth.instantaneous)),
             ]
         },

@@ -404,7 +404,7 @@ mod tests {
         let most = |rest: &str| {
             format!("Right in all cases throughout: nothing. Right most often: m {rest}.")
         };
-        assert_eq!(told([0, 0, 1, 0]), most("100 % from 0.001 to 0.01"));
+        assert_eq!(told([0, 0, 1, 0]), most("100 % from 1e−3 to 0.01"));
         assert_eq!(told([4; 4]), most("60 % throughout"));
         assert_eq!(
             study(View::Shares, [0, 0, 3, 1]).conclusion(),

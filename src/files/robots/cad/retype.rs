@@ -12,7 +12,7 @@ use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
 use crate::robots::problem::{Read, unsupported};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// Sines below this are none.

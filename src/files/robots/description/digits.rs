@@ -3,7 +3,7 @@
 use crate::file::schema::{Coordinate, ToleranceEntry};
 use crate::geom::expr::Expr;
 use crate::model::rounded::{Largest, Sources};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 /// Elements that place no joint, with all that is in them.
 const OTHERS: &str = "visual collision inertial inertia geom asset camera light sensor plugin \

@@ -7,7 +7,8 @@ use crate::motion::pose::Pose;
 use crate::robots::cad;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::{Part, Robot};
-use crate::robots::xml::{Document, Element};
+use crate::robots::xml::Document;
+use crate::robots::xml::element::Element;
 
 /// The description that a mechanism was read from, and which of its elements the mechanism's parts are.
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::problem::{Read, bad_value};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// An object.

@@ -3,7 +3,7 @@
 use crate::geom::rigid::RigidMotion;
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::problem::Read;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// The documents read: the first is the one with the assembly, the others those that it links to, by the name of their file.

@@ -4,7 +4,7 @@ use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::problem::{Read, bad_value};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// What `<compiler>` sets.

@@ -2,7 +2,7 @@
 
 use crate::geom::vector::Vector;
 use crate::robots::problem::{Read, known, whole};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// The classes: for each the class around it and its `<default>` elements.

@@ -6,7 +6,7 @@ use crate::robots::description::kinematics::displacement;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
 use crate::robots::problem::{Read, bad_value, known};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 pub(crate) fn read(

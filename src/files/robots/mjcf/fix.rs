@@ -12,7 +12,7 @@ use crate::robots::mjcf::context::compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::mjcf::weights::{self, Weight};
 use crate::robots::problem::Read;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// Armature where nothing is known of what links weigh, in kg and kg·m²: too much does no harm, too little does.

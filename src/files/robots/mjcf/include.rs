@@ -2,7 +2,8 @@
 
 use crate::robots::problem::{Read, unsupported};
 use crate::robots::warning::Reader;
-use crate::robots::xml::{self, Document, Element};
+use crate::robots::xml::element::Element;
+use crate::robots::xml::{self, Document};
 use std::path::{Component, Path};
 
 /// Deepest nesting of files, and most includes in all.

@@ -11,7 +11,7 @@ use crate::robots::mjcf::Waiting;
 use crate::robots::mjcf::context::Compiler;
 use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::problem::Read;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use shape::weight_of_shape;
 use std::collections::BTreeMap;
 use weight::{Settings, together};

@@ -8,7 +8,7 @@ use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
 use crate::robots::problem::Read;
 use crate::robots::sdf::include::is_old;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 /// Gives joints freedoms.
 pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {

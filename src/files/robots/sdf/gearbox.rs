@@ -7,7 +7,7 @@ use crate::robots::description::{Ratio, Robot};
 use crate::robots::problem::Read;
 use crate::robots::sdf::joints::axis;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 /// Couples the hinges of its parent and of its child on the body that it refers to: the child turns the other way, so many times
 /// as fast. Where there are no such hinges it is left out, which is said.

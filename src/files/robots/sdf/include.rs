@@ -3,7 +3,8 @@
 use crate::file::problem::ImportError;
 use crate::robots::problem::{Read, unsupported};
 use crate::robots::warning::Reader;
-use crate::robots::xml::{self, Document, Element};
+use crate::robots::xml::element::Element;
+use crate::robots::xml::{self, Document};
 
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);

@@ -6,7 +6,7 @@ use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
 use crate::robots::problem::{Read, bad_value};
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 pub(crate) const TYPES: &str =
     "revolute, continuous, prismatic, screw, universal, revolute2, ball, fixed, floating, gearbox";

@@ -3,7 +3,7 @@
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
 use crate::robots::problem::{Read, known, unknown_name};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// Something that has a place: a model, link, frame or joint.

@@ -6,7 +6,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{comment, escape, numbers};
 use crate::robots::problem::Read;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 /// Gives joints freedoms. What is put in between stands before the joint: its child, its name and what follows it stay.
 pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {

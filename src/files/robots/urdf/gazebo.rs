@@ -9,7 +9,7 @@ use crate::robots::problem::Read;
 use crate::robots::sdf::joints::joint;
 use crate::robots::sdf::named_place;
 use crate::robots::sdf::scene::{Placed, SdfScene, end, insert, resolve};
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 /// Reads what the `<gazebo>` elements below a root add. All links and joints of the URDF are read by now.
 ///

@@ -20,6 +20,12 @@ pub(crate) struct Element<'a> {
     pub(in crate::robots) id: usize,
 }
 
+impl Document {
+    pub(crate) fn element(&self, id: usize) -> Element<'_> {
+        Element { document: self, id }
+    }
+}
+
 impl<'a> Element<'a> {
     pub(in crate::robots) fn node(self) -> &'a Node {
         &self.document.nodes[self.id]

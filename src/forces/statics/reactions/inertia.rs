@@ -242,9 +242,10 @@ pub(crate) fn moving_masses(
         about.is_some_and(|w| size(cross(w, v)) > PARALLEL * size(w) * size(w).max(size(v)))
     };
     let flat = !moves.velocity.iter().any(|v| aside(turn(v)));
-    // Accelerations are sums of terms as great as the squares of the speeds, lengths in the geometry's size.
+    // Accelerations are sums of terms as great as the squares of the speeds, lengths in the geometry's size. They are solved for, and
+    // the speeds in them were before: each solution adds its rounding.
     let speed = greatest(moves.velocity.iter().flatten());
-    let rounding = rounding(0.0, speed * speed, geometry.unknowns());
+    let rounding = rounding(0.0, speed * speed, 8 * geometry.unknowns());
     let bare = |v: [f64; 3]| v.map(|x| without(rounding, x));
     let mut out = Vec::new();
     for (l, link) in m.links_with_ids() {

@@ -11,15 +11,41 @@ use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, StateId};
-use crate::search::build::self_stress::{Wanted, space};
+use crate::search::build::self_stress::{Wanted, nothing, space};
 use crate::search::diagram::columns::Columns;
-use crate::search::diagram::lane_stage::{LaneStage, Role, Stage};
-use crate::search::diagram::redundancy_so_far::{Limits, Spent};
+use crate::search::diagram::lane_stage::{LaneStage, Stage};
+use crate::search::diagram::minimize::minimal;
+use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
+use crate::search::diagram::transition::{Children, Worker};
+use crate::search::diagram::{self, Carries, Diagram, Progress};
 use crate::search::question::Question;
 use crate::search::question::conditions::InState;
-use crate::search::question::space::{Choice, Variable};
+use crate::search::question::space::{Choice, Face, Variable};
 use crate::search::reduce::lifetimes::Lifetime;
 use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace, is_contained};
+
+/// Returns the diagram of a question for the variables in an order: the smallest there is, or what fits the limits.
+///
+/// # Complexity
+/// O(nodes · choices · s²) field operations for s present self-stresses.
+pub(in crate::search) fn in_self_stress_space(
+    question: &Question,
+    order: &[usize],
+    limits: &Limits,
+    wanted: Wanted,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    progress: &mut (dyn FnMut(Progress) + Send),
+) -> Diagram {
+    let Lanes { stages, root } = Lanes::new(question, order, limits, wanted);
+    if !root.within(limits) {
+        return nothing(question, order);
+    }
+    let space = &wanted.model(question).space;
+    let built = diagram::build(space, &stages, limits, root, None, cancelled, progress);
+    let stop = built.stop;
+    let smallest = minimal(built.layers, built.terminals);
+    Diagram { stop, ..smallest }
+}
 
 /// A lane: its space, what it counts, and which choices it does not apply to.
 struct Lane {
@@ -116,6 +142,28 @@ impl Lane {
     }
 }
 
+impl Carries for Stage<'_> {
+    fn variable(&self) -> usize {
+        self.variable
+    }
+
+    fn worker(&self) -> Worker {
+        Worker::new(self.field)
+    }
+
+    fn effort(&self, bytes: usize) -> usize {
+        let widths = self.lanes.iter().map(|lane| {
+            let harmless = lane.harmless.as_ref();
+            lane.all.width + harmless.map_or(0, |h| h.width)
+        });
+        bytes / size_of::<Residue>() * widths.sum::<usize>().max(1)
+    }
+
+    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
+        worker.children(self, matrix, spent, out);
+    }
+}
+
 /// Returns the lanes of a searched state.
 fn of_state(question: &Question, order: &[usize], searched: InState) -> Vec<Lane> {
     let (mechanism, state) = (&question.mechanism, searched.state);
@@ -169,7 +217,7 @@ fn faces(question: &Question) -> Vec<JointId> {
 }
 
 /// What a choice does under friction at one of its variable's joints, where that is a face.
-fn face(choice: &Choice, member: usize) -> Option<&crate::search::question::space::Face> {
+fn face(choice: &Choice, member: usize) -> Option<&Face> {
     choice.faces.get(member).and_then(Option::as_ref)
 }
 

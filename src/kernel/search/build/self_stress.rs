@@ -5,13 +5,12 @@
 //! come allows anyway are one in it.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::lanes::Lanes;
 use crate::search::diagram::choice_inclusion::Grown;
 use crate::search::diagram::columns::{Adding, Columns};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
 use crate::search::diagram::transition::{Children, Worker};
-use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress};
+use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::question::throughout::ORDER;
 use crate::search::reduce::lifetimes::Lifetime;
@@ -151,29 +150,6 @@ pub(in crate::search) fn adding(
         }
     };
     order.iter().enumerate().map(stage).collect()
-}
-
-/// Returns the diagram of a question for the variables in an order: the smallest there is, or what fits the limits.
-///
-/// # Complexity
-/// O(nodes · choices · s²) field operations for s present self-stresses.
-pub(in crate::search) fn in_self_stress_space(
-    question: &Question,
-    order: &[usize],
-    limits: &Limits,
-    wanted: Wanted,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    progress: &mut (dyn FnMut(Progress) + Send),
-) -> Diagram {
-    let Lanes { stages, root } = Lanes::new(question, order, limits, wanted);
-    if !root.within(limits) {
-        return nothing(question, order);
-    }
-    let space = &wanted.model(question).space;
-    let built = diagram::build(space, &stages, limits, root, None, cancelled, progress);
-    let stop = built.stop;
-    let smallest = minimal(built.layers, built.terminals);
-    Diagram { stop, ..smallest }
 }
 
 /// The diagram of no variant, for variables in an order.

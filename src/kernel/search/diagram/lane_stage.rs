@@ -6,27 +6,9 @@
 //! A motion goes wrong where it closes every contour and moves a kept link. There is one exactly where `all` gains fewer dimensions
 //! than `harmless`: then two motions that differ only in what kept links do are both possible, and so is their difference.
 
-use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::JointId;
-use crate::search::diagram::Carries;
+use crate::linalg::modp::Field;
 use crate::search::diagram::columns::Columns;
-use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::transition::{Children, Worker};
-
-/// What a lane counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::search) enum Role {
-    /// Redundant constraints of the free state.
-    Free,
-    /// Those of the searched state.
-    State,
-    /// Those of the searched state without the joints that it adds.
-    Common,
-    /// Those of the searched state under friction, where this face shows moments too.
-    Friction(JointId),
-    /// None: whether the body of this grasp moves against one of its jaws.
-    Held(usize),
-}
+use crate::search::diagram::redundancy_so_far::{Limits, Role};
 
 /// A variable of a lane.
 #[derive(Debug)]
@@ -52,26 +34,4 @@ pub(in crate::search) struct Stage<'a> {
     /// What the lanes of a searched state count, after its last variable.
     pub(in crate::search) ending: Option<Vec<Role>>,
     pub(in crate::search) limits: &'a Limits,
-}
-
-impl Carries for Stage<'_> {
-    fn variable(&self) -> usize {
-        self.variable
-    }
-
-    fn worker(&self) -> Worker {
-        Worker::new(self.field)
-    }
-
-    fn effort(&self, bytes: usize) -> usize {
-        let widths = self.lanes.iter().map(|lane| {
-            let harmless = lane.harmless.as_ref();
-            lane.all.width + harmless.map_or(0, |h| h.width)
-        });
-        bytes / size_of::<Residue>() * widths.sum::<usize>().max(1)
-    }
-
-    fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        worker.children(self, matrix, spent, out);
-    }
 }

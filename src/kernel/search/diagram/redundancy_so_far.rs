@@ -1,6 +1,6 @@
 //! The redundant constraints that a partly chosen mechanism has, and how many it may have.
 
-use crate::search::diagram::lane_stage::Role;
+use crate::model::mechanism::JointId;
 use itertools::Itertools;
 
 /// When a partly built mechanism is given up, and when building stops; no number, no limit.
@@ -20,6 +20,21 @@ pub(crate) struct Limits {
     pub layer: usize,
     /// Bytes held at a time, nodes and edges.
     pub bytes: usize,
+}
+
+/// What a lane counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::search) enum Role {
+    /// Redundant constraints of the free state.
+    Free,
+    /// Those of the searched state.
+    State,
+    /// Those of the searched state without the joints that it adds.
+    Common,
+    /// Those of the searched state under friction, where this face shows moments too.
+    Friction(JointId),
+    /// None: whether the body of this grasp moves against one of its jaws.
+    Held(usize),
 }
 
 /// Redundant constraints so far.
@@ -122,9 +137,14 @@ impl Spent {
         self.internal
     }
 
-    /// Returns whether no more redundant constraints are within the mechanism than there may be.
+    /// Returns whether no more redundant constraints are within the mechanism than there may be, nor in the searched state so far than it
+    /// may add to as many; its lane is the first.
     pub(in crate::search) fn within(&self, limits: &Limits) -> bool {
-        self.internal <= limits.internal
+        let state = self.lanes.first().map_or(0, |&n| i64::from(n));
+        let most = limits
+            .external
+            .map(|external| i64::from(external) + i64::from(limits.internal));
+        self.internal <= limits.internal && most.is_none_or(|most| state <= most)
     }
 
     /// Returns whether the state adds no more than it may, its lanes being settled.

@@ -4,9 +4,9 @@
 
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::columns::{Adding, Columns};
-use crate::search::diagram::lane_stage::{Role, Stage};
+use crate::search::diagram::lane_stage::Stage;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
-use crate::search::diagram::redundancy_so_far::Spent;
+use crate::search::diagram::redundancy_so_far::{Role, Spent};
 
 /// A child: its hash, the redundancy spent, and where its matrix starts and ends.
 pub(in crate::search) type Child = (u64, Spent, usize, usize);

@@ -3,13 +3,12 @@
 mod inertias;
 mod programme;
 
-use crate::file::problem::ProblemKind;
 use crate::file::read::value::quantity::Bound;
 use crate::file::schema::{Coordinate, DriveEntry, MechanismFile};
 use crate::file::{Findings, Place};
 use crate::model::drive::{Cam, Damping, DriveSpec, Push};
 use crate::model::mechanism::Mechanism;
-use inertias::inertias;
+use inertias::{inertias, lacks};
 pub(crate) use programme::regular;
 use programme::{MOST, programme};
 
@@ -67,12 +66,6 @@ fn period(t: &Place<'_>, e: &DriveEntry) -> f64 {
         (None, None) => lacks(t, "period, or swing_time, its half"),
     }
     1.0
-}
-
-/// Tells what the table lacks.
-fn lacks(t: &Place<'_>, other: &'static str) {
-    let key = "drive";
-    t.add(ProblemKind::KeyNeeds { key, other });
 }
 
 /// The diameters that bars come in, ascending.

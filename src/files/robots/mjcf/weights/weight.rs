@@ -4,7 +4,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
 use crate::robots::mjcf::context::{Compiler, compiler};
 use crate::robots::problem::Read;
-use crate::robots::xml::Element;
+use crate::robots::xml::element::Element;
 
 /// Mass in kg, and the tensor in kg·m².
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! What the bar swings: discs, given by figures or by a link, and a payload.
 
-use super::lacks;
 use crate::file::Place;
+use crate::file::problem::ProblemKind;
 use crate::file::read::workload::grip::MECHANISM;
 use crate::file::schema::DriveEntry;
 use crate::geom::vector::{dot, real, scale, sub};
@@ -9,6 +9,12 @@ use crate::model::drive::Payload;
 use crate::model::joint_type::JointType;
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{Mechanism, StateId};
+
+/// Tells what the table lacks.
+pub(super) fn lacks(t: &Place<'_>, other: &'static str) {
+    let key = "drive";
+    t.add(ProblemKind::KeyNeeds { key, other });
+}
 
 /// Inertia of a link about the axis it turns on the frame about.
 fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Mechanism>) -> Option<f64> {
