@@ -8,6 +8,7 @@ pub(in crate::search) mod canonical;
 mod ears;
 mod widths;
 
+use crate::model::mechanism::StateId;
 use crate::search::order::canonical::canonical;
 use crate::search::order::ears::Joined;
 use crate::search::order::widths::{Trial, Widths};
@@ -19,13 +20,13 @@ use std::collections::btree_map::Entry;
 /// Orders kept after each contour.
 const BEAM: usize = 2;
 
-/// Returns an order of the variables of some blocks, block by block, which is among the narrowest found; blocks that have a say in the
+/// Returns an order of the variables of some blocks in a state, block by block, which is among the narrowest found; blocks that have a say in the
 /// motion of kept links come last.
 ///
 /// # Complexity
 /// O(contours · BEAM · EARS) ears tried.
 #[must_use]
-pub(super) fn variable_order(question: &Question, blocks: &[Block]) -> Vec<usize> {
+pub(super) fn variable_order(question: &Question, blocks: &[Block], state: StateId) -> Vec<usize> {
     let all: Vec<usize> = blocks.iter().flat_map(|b| b.variables.clone()).collect();
     let place = canonical(&question.mechanism, &question.model.space, &all);
     let mut block_of = BTreeMap::new();
@@ -42,16 +43,16 @@ pub(super) fn variable_order(question: &Question, blocks: &[Block]) -> Vec<usize
         sorted[b].push(v);
     }
     met.sort_by_key(|&b| !blocks[b].apart);
-    let of = |b: usize| order_of_block(question, &sorted[b]);
+    let of = |b: usize| order_of_block(question, &sorted[b], state);
     met.into_iter().flat_map(of).collect()
 }
 
 /// Returns the order of one block, whose variables are given in the canonical order.
-fn order_of_block(question: &Question, variables: &[usize]) -> Vec<usize> {
+fn order_of_block(question: &Question, variables: &[usize], state: StateId) -> Vec<usize> {
     if let [_] = variables {
         return variables.to_vec();
     }
-    let widths = Widths::new(question, variables);
+    let widths = Widths::new(question, variables, state);
     let joined = Joined::new(question, variables);
     let mut beam = vec![widths.start()];
     while beam.iter().any(|t| t.order.len() < variables.len()) {

@@ -4,12 +4,9 @@ use crate::geom::vector::real;
 use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
-use crate::statics::reactions::contact::Contacts;
 use crate::statics::reactions::drives::{Driven, period};
 use crate::statics::reactions::geometry::{Geometry, Six, power, wrench};
 use crate::statics::reactions::inertia::{MovingMass, motion, moving_masses};
-use crate::statics::reactions::solution::Solution;
-use crate::statics::reactions::solve::Reactions;
 use crate::statics::reactions::unsolved::Unsolved;
 
 /// Where a load comes from.
@@ -128,7 +125,7 @@ pub(crate) struct Borne {
     /// Power of the loads `[W]`.
     pub(crate) power: f64,
     /// By link.
-    sums: Vec<Six>,
+    pub(super) sums: Vec<Six>,
 }
 
 impl Borne {
@@ -157,18 +154,5 @@ impl Borne {
             sums,
             geometry,
         })
-    }
-
-    /// The reactions to them, with contacts as asked for.
-    ///
-    /// # Errors
-    /// [`Unsolved`].
-    pub(crate) fn solve(
-        &self,
-        m: &Mechanism,
-        drives: &[Driven],
-        contacts: Contacts,
-    ) -> Result<Solution, Unsolved> {
-        Reactions::bearing(m, &m.loads, &self.geometry, &self.sums, drives, contacts)
     }
 }

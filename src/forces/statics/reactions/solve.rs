@@ -7,7 +7,7 @@ use crate::statics::reactions::contact::{Contacts, contacts};
 use crate::statics::reactions::drives::{Driven, driven, period};
 use crate::statics::reactions::equations::{self, System, Transmitted};
 use crate::statics::reactions::geometry::{Geometry, Six, power};
-use crate::statics::reactions::loads::link_loads;
+use crate::statics::reactions::loads::{Borne, link_loads};
 use crate::statics::reactions::solution::{
     NO_STRESS, Solution, Uniqueness, left_over, open, open_couplings, passed_by_couplings, present,
 };
@@ -21,6 +21,21 @@ const NO_WORK: f64 = 1e-8;
 /// Solves for reactions.
 #[derive(Debug)]
 pub struct Reactions;
+
+impl Borne {
+    /// The reactions to them, with contacts as asked for.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub(crate) fn solve(
+        &self,
+        m: &Mechanism,
+        drives: &[Driven],
+        contacts: Contacts,
+    ) -> Result<Solution, Unsolved> {
+        Reactions::bearing(m, &m.loads, &self.geometry, &self.sums, drives, contacts)
+    }
+}
 
 impl Reactions {
     /// Reactions at the pose of the file.

@@ -1,5 +1,6 @@
 //! The orders in which both diagrams take the variables.
 
+use crate::model::mechanism::StateId;
 use crate::search::order::variable_order;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
@@ -18,11 +19,11 @@ pub struct Orders {
 #[must_use]
 pub(crate) fn orders(question: &Question) -> Orders {
     let nothing_is_built = is_none_possible(question);
-    let order = |blocks: &[Block]| -> Vec<usize> {
+    let order = |blocks: &[Block], state: StateId| -> Vec<usize> {
         if nothing_is_built {
             return blocks.iter().flat_map(|b| b.variables.clone()).collect();
         }
-        variable_order(question, blocks)
+        variable_order(question, blocks, state)
     };
     let variables = &question.space.variables;
     let those = |wanted: fn(&Variable) -> bool| {
@@ -30,7 +31,7 @@ pub(crate) fn orders(question: &Question) -> Orders {
         all.filter(move |&v| wanted(&variables[v]))
     };
     let [determinate, common] = &question.blocks;
-    let mut determinate = order(determinate);
+    let mut determinate = order(determinate, StateId::FREE);
     determinate.extend(those(|v| v.external));
     if one_diagram(question) {
         let admissible = determinate.clone();
@@ -39,7 +40,8 @@ pub(crate) fn orders(question: &Question) -> Orders {
             admissible,
         };
     }
-    let mut admissible = order(common);
+    let state = question.conditions.state.map_or(StateId::FREE, |s| s.state);
+    let mut admissible = order(common, state);
     admissible.extend(those(|v| v.alone).chain(those(|v| v.external)));
     Orders {
         determinate,

@@ -8,8 +8,10 @@
 //! Oxley, "Matroid Theory" (2011), section 2.1, for the rank of the dual; connectivity of a set and its complement: Oum & Seymour,
 //! "Approximating clique-width and branch-width", J. Combin. Theory B 96 (2006).
 
+use crate::closure::contour::contour_basis;
 use crate::linalg::echelon::{Echelon, relations};
 use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::StateId;
 use crate::search::question::Question;
 use crate::search::reduce::self_stress_space::ClosingRows;
 use std::collections::BTreeMap;
@@ -33,18 +35,27 @@ pub(in crate::search) struct Trial {
 }
 
 impl Widths {
-    /// Returns the widths of orders of a block's variables.
+    /// Returns the widths of orders of a block's variables in a state; what the state adds comes after them.
     ///
     /// # Complexity
     /// One elimination of all vectors that the choices add.
-    pub(in crate::search) fn new(question: &Question, variables: &[usize]) -> Widths {
+    pub(in crate::search) fn new(
+        question: &Question,
+        variables: &[usize],
+        state: StateId,
+    ) -> Widths {
         let (field, space) = (question.exact.field(), &question.model.space);
-        let rows = ClosingRows::free(&question.mechanism, space.dim, &question.contours, None);
+        let contours = contour_basis(&question.mechanism, state);
+        let none = Vec::new();
+        let rows = ClosingRows::in_state(&question.mechanism, space.dim, state, &contours, none);
         let columns = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
+        let added = (0..space.variables.len())
+            .filter(|&v| state != StateId::FREE && space.variables[v].external);
+        let variables: Vec<usize> = variables.iter().copied().chain(added).collect();
         let present = Echelon::of(field, variables.iter().flat_map(|&v| columns(v, 0)));
         let mut all: Vec<Vec<Residue>> = Vec::new();
         let mut of_variable = Vec::new();
-        for &v in variables {
+        for &v in &variables {
             let mut own = Echelon::new(field);
             for c in 1..space.variables[v].choices.len() {
                 for mut column in columns(v, c) {
