@@ -11,7 +11,7 @@ A mechanism goes in; an analysis, a search, reactions or a drawing come out:
 >>> outcome.determinate
 6340592477
 >>> print(outcome[0])
-1. cost 11.5, W = 1, σ = 0: 1-2, 3-0, 1-6, 7-0, 6-8 -> spherical; 5-1 -> cylindrical
+1. cost 11.5, W = 1, σ = 0: 1-2, 3-0, 1-6, 6-7, 9-1 -> spherical; 5-1 -> cylindrical
 
 What is found has the keys of the JSON that the command ``ozols`` prints, as items and as attributes, and ``to_pandas()``.
 What goes wrong is an :class:`ozols.Error` with the command's words. Long work leaves other threads running; Ctrl-C ends it.
