@@ -304,12 +304,18 @@ impl Study {
                 let all = grouped(t.all());
                 format!("{} of {all} at {bits} bits", t.wrong.len())
             };
-            let above = |(b, t): &&(f64, &Tally)| t.percent(Said::Wrong) > bound(degree, *b);
+            // The bound is of a probability: some more may be drawn, three deviations and one.
+            let above = |(b, t): &&(f64, &Tally)| {
+                #[allow(clippy::cast_precision_loss, reason = "cases are few")]
+                let [all, wrong] = [t.all(), t.wrong.len()].map(|n| n as f64);
+                let expected = bound(degree, *b) / 100.0 * all;
+                wrong > expected + 3.0 * expected.sqrt() + 1.0
+            };
             let above = match wrong.iter().copied().any(|w| above(&w)) {
                 // The bound speaks of the first row.
                 _ if n > 0 => "",
-                true => " above the bound,",
-                false => " never above the bound,",
+                true => " more than the bound allows,",
+                false => " within the bound,",
             };
             let each: Vec<String> = wrong.iter().map(some).collect();
             let none = if each.is_empty() {
