@@ -78,7 +78,7 @@ fn moves(
 /// What is wrong with the last of them.
 ///
 /// # Complexity
-/// As [`moves`] for each.
+/// As `moves` for each.
 pub fn working_swap(
     subject: &Subject<'_>,
     roles: &Roles,
