@@ -5,14 +5,12 @@
 
 pub(in crate::search) mod allowance;
 pub(in crate::search) mod between;
-pub(in crate::search) mod choice_inclusion;
-pub(in crate::search) mod columns;
 pub(in crate::search) mod completion;
-pub(in crate::search) mod lane_stage;
 pub(in crate::search) mod layer;
 pub(in crate::search) mod minimize;
 pub(in crate::search) mod reduced_rows;
 pub(crate) mod redundancy_so_far;
+pub(in crate::search) mod stage;
 pub(in crate::search) mod stop;
 pub(in crate::search) mod transition;
 

@@ -1,32 +1,37 @@
-//! In which order to choose: contours should close early and few coordinates stay open.
+//! The order of variables: contours should close early, and few coordinates stay open.
 //!
 //! Contours are taken whole, each by the shortest way through joints not chosen yet that begins and ends at links reached already (an
-//! [`ear`](ears)). A beam search over such ways keeps those behind which the fewest coordinates are open ([`widths`]). What is alike is
-//! taken in the canonical order, so that the file's order of tables makes no difference. A bad order costs time, never correctness.
+//! [`ear`](ears)). A beam search keeps the ways behind which the fewest coordinates are open ([`widths`]). Equal ways are taken in the
+//! canonical order, so that the file's order of tables makes no difference. A bad order costs time, never correctness.
 
 pub(in crate::search) mod canonical;
 mod ears;
 mod widths;
 
-use crate::model::mechanism::StateId;
 use crate::search::order::canonical::canonical;
 use crate::search::order::ears::Joined;
 use crate::search::order::widths::{Trial, Widths};
 use crate::search::question::Question;
 use crate::search::reduce::biconnected::Block;
+use crate::search::reduce::self_stress_space::ClosingRows;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 /// Orders kept after each contour.
 const BEAM: usize = 2;
 
-/// Returns an order of the variables of some blocks in a state, block by block, which is among the narrowest found; blocks that have a say in the
-/// motion of kept links come last.
+/// Returns an order of the variables of some blocks by the closure equations in `rows`. Blocks that have a say in the motion of kept
+/// links come last, and variables in `later` after all. The order of each block is among the narrowest found.
 ///
 /// # Complexity
 /// O(contours · BEAM · EARS) ears tried.
 #[must_use]
-pub(super) fn variable_order(question: &Question, blocks: &[Block], state: StateId) -> Vec<usize> {
+pub(super) fn variable_order(
+    question: &Question,
+    blocks: &[Block],
+    rows: &ClosingRows<'_>,
+    later: &[usize],
+) -> Vec<usize> {
     let all: Vec<usize> = blocks.iter().flat_map(|b| b.variables.clone()).collect();
     let place = canonical(&question.mechanism, &question.model.space, &all);
     let mut block_of = BTreeMap::new();
@@ -43,17 +48,19 @@ pub(super) fn variable_order(question: &Question, blocks: &[Block], state: State
         sorted[b].push(v);
     }
     met.sort_by_key(|&b| !blocks[b].apart);
-    let of = |b: usize| order_of_block(question, &sorted[b], state);
+    let (field, space) = (question.exact.field(), &question.model.space);
+    let of = |b: usize| match &sorted[b][..] {
+        [one] => vec![*one],
+        variables => {
+            let widths = Widths::new(field, space, rows, variables, later);
+            order_of_block(&Joined::new(question, variables), &widths, variables)
+        }
+    };
     met.into_iter().flat_map(of).collect()
 }
 
 /// Returns the order of one block, whose variables are given in the canonical order.
-fn order_of_block(question: &Question, variables: &[usize], state: StateId) -> Vec<usize> {
-    if let [_] = variables {
-        return variables.to_vec();
-    }
-    let widths = Widths::new(question, variables, state);
-    let joined = Joined::new(question, variables);
+fn order_of_block(joined: &Joined, widths: &Widths, variables: &[usize]) -> Vec<usize> {
     let mut beam = vec![widths.start()];
     while beam.iter().any(|t| t.order.len() < variables.len()) {
         let mut next: BTreeMap<Vec<u64>, Trial> = BTreeMap::new();

@@ -82,7 +82,7 @@ fn open(mechanism: &Mechanism, contours: &[Contour]) -> usize {
     mechanism.joints_in(StateId::FREE).count() - closed.count()
 }
 
-/// Checks that every choice in the free state has the motions of the present joints: what these do is divided out of a diagram.
+/// Checks that every choice in the free state has the motions of the original joint, which are divided out of the diagrams.
 fn check_options(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -242,6 +242,23 @@ impl Question {
         };
         let loose = loose(&self.exact, m, s.state, &self.grasps)?;
         Ok(loose.into_iter().map(said).collect())
+    }
+
+    /// Returns whether the searched state joins only kept links and links that it adds. The redundant constraints that it adds then
+    /// depend on the joints that it adds and on the motion of the kept links, which is the original one in every admissible variant.
+    pub(in crate::search) fn state_joins_kept_links(&self) -> bool {
+        let m = &self.mechanism;
+        let is_known = |l: LinkId| l == m.frame() || self.kept.links.contains(&l) || !is_free(m, l);
+        let is_coupled = |j: JointId| m.couplings_of(j).next().is_some();
+        self.conditions.keep_output
+            && self.space.variables.iter().all(|v| {
+                let mut joints = v.joints.iter();
+                !v.alone
+                    && (!v.external
+                        || joints.all(|&j| {
+                            !is_coupled(j) && m.joints[j].links.into_iter().all(is_known)
+                        }))
+            })
     }
 
     /// Dimension of the kept links' present motion.

@@ -13,8 +13,8 @@ use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
 
-/// The diagrams of a question as made from one end and from both ends, of those that are made so within the limits, all the smallest there
-/// are; none from both ends where more redundant constraints are allowed than all variants have.
+/// Returns the diagrams of a question that fit the limits, minimized: each as built from one end and from both ends. The second is `None`
+/// if more redundant constraints are allowed than every variant has.
 #[must_use]
 pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     let (orders, limits, never) = (orders(question), limits(question), || false);

@@ -54,7 +54,7 @@ impl Estimate {
     }
 }
 
-/// What an estimate is made of: samples of a larger set that is counted.
+/// The samples of an estimate, drawn from a larger set that is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Drawn {
     /// How many samples were drawn.

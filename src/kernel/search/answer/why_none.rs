@@ -50,8 +50,6 @@ pub struct Hopeless {
 
 /// Nodes of a diagram at most, where the question took fewer: easing should cost little more than the question did.
 const NODES: usize = 20_000;
-/// The same with a searched state, whose nodes tell more and are more.
-const NODES_IN_STATE: usize = 100_000;
 /// How many times the question's nodes, where those are more.
 const MORE: usize = 4;
 
@@ -92,13 +90,9 @@ pub fn relaxations(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
     let conditions = &question.conditions;
-    let least = match conditions.state {
-        Some(_) => NODES_IN_STATE,
-        None => NODES,
-    };
     let easing = Easing {
         question,
-        nodes: nodes.saturating_mul(MORE).max(least),
+        nodes: nodes.saturating_mul(MORE).max(NODES),
         cancelled,
     };
     let mut out = Vec::new();

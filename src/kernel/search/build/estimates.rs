@@ -11,8 +11,9 @@ use crate::search::diagram::{Diagram, Stop};
 use crate::search::question::Question;
 use num_bigint::BigUint;
 
-/// Returns estimates of the numbers of determinate and of admissible variants whose diagrams are cut, by samples of a larger set that is
-/// counted; none where a state is searched, or redundant constraints are allowed that not all variants have.
+/// Returns estimates of the numbers of determinate and of admissible variants if their diagrams are cut. They are made by samples of a
+/// larger set that is counted. An entry is `None` if its diagram is whole, if a state is searched, or if redundant constraints are allowed
+/// that not all variants have.
 pub(super) fn estimates(
     question: &Question,
     [determinate, admissible]: [&Diagram; 2],

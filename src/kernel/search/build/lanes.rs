@@ -1,21 +1,23 @@
 //! The spaces in which a question's diagram is built: *lanes*, side by side in a node.
 //!
-//! The free state has one. A searched state has more, each with the contours of that state:
-//! - one that counts its redundant constraints;
-//! - one for each face that may take moments: there the faces carry friction only, which is to say that what they do not
-//!   carry moves freely. What is redundant in that lane is redundant by friction alone;
-//! - one for what is redundant without the joints that the state adds, where the free state has other joints;
-//! - one for each body that is to be held and each link that may hold it, in which the motion of the one against the other is kept.
+//! The free state has one lane. A searched state adds lanes with the contours of that state:
+//! - One lane counts its redundant constraints.
+//! - One lane for each face that may take moments. The faces of this lane carry only friction: directions that friction does not hold
+//!   move freely. Constraints that are redundant there are redundant by friction.
+//! - One lane counts the redundant constraints without the joints that the state adds, if the free state has other joints.
+//! - One lane for each body that is to be held and each link that may hold it. It keeps the motion of the body relative to the link.
+//!
+//! If the state joins only kept links, the choices of common joints make no difference to it, and its lanes have the original joints
+//! ([`Question::state_joins_kept_links`]).
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{path_in, spanning_tree};
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{JointId, LinkId, StateId};
 use crate::search::build::self_stress::{Wanted, nothing, space};
-use crate::search::diagram::columns::Columns;
-use crate::search::diagram::lane_stage::{LaneStage, Stage};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Role, Spent};
+use crate::search::diagram::stage::{Columns, LaneStage, Stage};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{self, Carries, Diagram, Progress};
 use crate::search::question::Question;
@@ -85,9 +87,16 @@ impl<'a> Lanes<'a> {
         let more = state.map_or_else(Vec::new, |s| of_state(question, order, s));
         let roles: Vec<Role> = more.iter().map(|lane| lane.role).collect();
         let mut root = Spent::within_mechanism(limits.already.saturating_add(free.space.lasting));
+        let contours = u32::try_from(free.space.contours.len()).unwrap_or(u32::MAX);
+        // All lanes of the state have the original common joints, with these redundant constraints.
+        let of_free = if limits.beside_free {
+            root.internal() + contours
+        } else {
+            0
+        };
         for (i, lane) in more.iter().enumerate() {
-            root.add(1 + i, lane.space.lasting);
-            // What is loose with the present joints is loose in every variant.
+            root.add(1 + i, lane.space.lasting - of_free);
+            // A body that is loose with the original joints is loose in every variant.
             if matches!(lane.role, Role::Held(_)) && lane.space.moves_kept {
                 root.rule_out(1 + i);
             }
@@ -169,7 +178,7 @@ fn of_state(question: &Question, order: &[usize], searched: InState) -> Vec<Lane
     let (mechanism, state) = (&question.mechanism, searched.state);
     let contours = contour_basis(mechanism, state);
     let tree = spanning_tree(mechanism, state);
-    let against = |body: LinkId, jaw: LinkId| {
+    let against = &|body: LinkId, jaw: LinkId| {
         let mut path = path_in(&tree, body);
         for (joint, forward) in path_in(&tree, jaw) {
             match path.iter().position(|(j, _)| *j == joint) {
@@ -184,20 +193,20 @@ fn of_state(question: &Question, order: &[usize], searched: InState) -> Vec<Lane
     let others = variables.iter().any(|v| v.alone).then_some(Role::Common);
     let plain = [Role::State].into_iter().chain(faces).chain(others);
     let plain = plain.map(|role| (role, Vec::new()));
-    let held = question.grasps.iter().enumerate().flat_map(|(g, grasp)| {
+    let grasps = question.grasps.iter().enumerate();
+    let held = grasps.flat_map(|(g, grasp)| {
         let jaws = grasp.jaws.iter();
-        let path = move |&jaw: &LinkId| (Role::Held(g), vec![(grasp.body, jaw)]);
-        jaws.map(path)
+        jaws.map(move |&jaw| (Role::Held(g), vec![against(grasp.body, jaw)]))
     });
-    let of_role = |(role, pairs): (Role, Vec<(LinkId, LinkId)>)| {
-        let paths = pairs.iter().map(|&(body, jaw)| against(body, jaw));
+    let of_role = |(role, paths)| {
         let in_state = StateRows {
             question,
             state,
             contours: &contours,
             role,
+            has_present_joints: question.state_joins_kept_links(),
         };
-        in_state.lane(order, paths.collect())
+        in_state.lane(order, paths)
     };
     plain.chain(held).map(of_role).collect()
 }
@@ -216,7 +225,7 @@ fn faces(question: &Question) -> Vec<JointId> {
     faces.map(|(_, joint)| joint).collect()
 }
 
-/// What a choice does under friction at one of its variable's joints, where that is a face.
+/// Returns the motions of a choice under friction at one of its variable's joints; `None` if the joint is no face.
 fn face(choice: &Choice, member: usize) -> Option<&Face> {
     choice.faces.get(member).and_then(Option::as_ref)
 }
@@ -227,6 +236,8 @@ struct StateRows<'a> {
     state: StateId,
     contours: &'a [Contour],
     role: Role,
+    /// Whether the common joints are the original ones in every variant.
+    has_present_joints: bool,
 }
 
 impl StateRows<'_> {
@@ -240,34 +251,31 @@ impl StateRows<'_> {
         } = self.question;
         let (field, space) = (exact.field(), &model.space);
         let rows = ClosingRows::in_state(mechanism, space.dim, self.state, self.contours, paths);
-        let of_choice = |v: usize, c: usize| {
-            let variable = &space.variables[v];
-            self.columns(&rows, field, variable, &variable.choices[c])
+        let of_variable = |variable: &Variable| -> Vec<Option<Vec<Vec<Residue>>>> {
+            let choices = variable.choices.iter();
+            choices
+                .map(|choice| self.columns(&rows, field, variable, choice))
+                .collect()
         };
+        let columns: Vec<_> = space.variables.iter().map(of_variable).collect();
         let present = |v: usize| {
-            let choices = 0..space.variables[v].choices.len();
-            let all: Vec<Vec<Vec<Residue>>> = choices.filter_map(|c| of_choice(v, c)).collect();
-            // What is not in every choice cannot be divided out.
-            let all_there = of_choice(v, 0).is_some() && is_contained(field, &all);
-            all.into_iter()
-                .next()
-                .filter(|_| all_there)
-                .unwrap_or_default()
+            let all: Vec<&Vec<Vec<Residue>>> = columns[v].iter().flatten().collect();
+            // Only what every choice has can be divided out.
+            let is_in_all = columns[v][0].is_some() && is_contained(field, &all);
+            all.first()
+                .filter(|_| is_in_all)
+                .map_or_else(Vec::new, |first| (*first).clone())
         };
-        let applies = |&v: &usize| {
-            let choices = 0..space.variables[v].choices.len();
-            choices.map(|c| of_choice(v, c).is_some()).collect()
-        };
+        let of_choice = |v: usize, c: usize| columns[v][c].clone().unwrap_or_default();
+        let applies = |&v: &usize| columns[v].iter().map(Option::is_some).collect();
         Lane {
             role: self.role,
             applies: order.iter().map(applies).collect(),
-            space: SelfStressSpace::new(field, &rows, 1, space, order, &present, &|v, c| {
-                of_choice(v, c).unwrap_or_default()
-            }),
+            space: SelfStressSpace::new(field, &rows, 1, space, order, &present, &of_choice),
         }
     }
 
-    /// Returns the columns of a choice in this lane; `None` where it does not apply, as its face is none.
+    /// Returns the columns of a choice in this lane; `None` if the lane does not apply, since its joint is no face.
     fn columns(
         &self,
         rows: &ClosingRows<'_>,
@@ -276,6 +284,12 @@ impl StateRows<'_> {
         choice: &Choice,
     ) -> Option<Vec<Vec<Residue>>> {
         let mechanism = &self.question.mechanism;
+        // The choice of a common joint may make no difference.
+        let choice = if self.has_present_joints && !variable.external {
+            &variable.choices[0]
+        } else {
+            choice
+        };
         let mut out = Vec::new();
         for (member, &joint) in variable.joints.iter().enumerate() {
             if !mechanism.joints[joint].is_in(self.state) {

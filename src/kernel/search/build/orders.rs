@@ -1,10 +1,11 @@
 //! The orders in which both diagrams take the variables.
 
-use crate::model::mechanism::StateId;
+use crate::closure::contour::contour_basis;
 use crate::search::order::variable_order;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
 use crate::search::reduce::biconnected::Block;
+use crate::search::reduce::self_stress_space::ClosingRows;
 
 /// The orders in which diagrams take the variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,34 +16,45 @@ pub struct Orders {
     pub admissible: Vec<usize>,
 }
 
-/// Finds the orders of both diagrams; they do not depend on the prime, and a twin over another may be given them.
+/// Returns the orders of both diagrams. They do not depend on the prime, and a twin over another prime may be given them.
 #[must_use]
 pub(crate) fn orders(question: &Question) -> Orders {
     let nothing_is_built = is_none_possible(question);
-    let order = |blocks: &[Block], state: StateId| -> Vec<usize> {
+    let order = |blocks: &[Block], rows: &ClosingRows<'_>, later: &[usize]| -> Vec<usize> {
         if nothing_is_built {
             return blocks.iter().flat_map(|b| b.variables.clone()).collect();
         }
-        variable_order(question, blocks, state)
+        variable_order(question, blocks, rows, later)
     };
     let variables = &question.space.variables;
-    let those = |wanted: fn(&Variable) -> bool| {
+    let those = |wanted: fn(&Variable) -> bool| -> Vec<usize> {
         let all = 0..variables.len();
-        all.filter(move |&v| wanted(&variables[v]))
+        all.filter(|&v| wanted(&variables[v])).collect()
     };
-    let [determinate, common] = &question.blocks;
-    let mut determinate = order(determinate, StateId::FREE);
-    determinate.extend(those(|v| v.external));
+    let (mechanism, dim) = (&question.mechanism, question.model.space.dim);
+    let free = |kept| ClosingRows::free(mechanism, dim, &question.contours, kept);
+    let [blocks, common] = &question.blocks;
+    let external = those(|v| v.external);
+    let mut determinate = order(blocks, &free(None), &[]);
+    determinate.extend(&external);
     if one_diagram(question) {
-        let admissible = determinate.clone();
         return Orders {
+            admissible: determinate.clone(),
             determinate,
-            admissible,
         };
     }
-    let state = question.conditions.state.map_or(StateId::FREE, |s| s.state);
-    let mut admissible = order(common, state);
-    admissible.extend(those(|v| v.alone).chain(those(|v| v.external)));
+    let kept = question.conditions.keep_output.then_some(&question.kept);
+    let mut admissible = match question.conditions.state {
+        Some(searched) if !question.state_joins_kept_links() => {
+            let contours = contour_basis(mechanism, searched.state);
+            let none = Vec::new();
+            let rows = ClosingRows::in_state(mechanism, dim, searched.state, &contours, none);
+            order(common, &rows, &external)
+        }
+        _ => order(common, &free(kept), &[]),
+    };
+    admissible.extend(those(|v| v.alone));
+    admissible.extend(external);
     Orders {
         determinate,
         admissible,

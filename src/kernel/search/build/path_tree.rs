@@ -6,7 +6,7 @@
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::choice_inclusion::Grown;
+use crate::search::diagram::stage::Grown;
 use crate::search::diagram::{DEAD, Layer};
 use hashbrown::HashMap;
 

@@ -5,10 +5,9 @@
 //! come allows anyway are one in it.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::choice_inclusion::Grown;
-use crate::search::diagram::columns::{Adding, Columns};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
+use crate::search::diagram::stage::{Adding, Columns, Grown};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
@@ -47,6 +46,7 @@ pub(in crate::search) fn limits(question: &Question) -> Limits {
         internal: question.conditions.max_redundant,
         external: state.and_then(|s| s.max_external),
         harmful: state.and_then(|s| s.max_harmful),
+        beside_free: question.state_joins_kept_links(),
         nodes: question.conditions.nodes,
         // Two primes with two diagrams each take half, and what is counted on them the rest.
         bytes: question.conditions.memory / 8,

@@ -38,8 +38,7 @@ pub(in crate::search) struct Halves<'a> {
 }
 
 impl<'a> Halves<'a> {
-    /// Of the variables in an order; none where it is not the case that just the redundant constraints are allowed which all variants
-    /// have.
+    /// Returns the halves for the variables in an order; `None` if more redundant constraints are allowed than every variant has.
     pub(in crate::search) fn new(
         question: &Question,
         order: &[usize],

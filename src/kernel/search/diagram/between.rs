@@ -9,8 +9,8 @@
 //! relaxed by merging nodes.
 
 use crate::linalg::modp::Residue;
-use crate::search::diagram::columns::Adding;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
+use crate::search::diagram::stage::Adding;
 
 /// Spaces that contain one, lie within another, and reach no more than so many dimensions; one space where both are the same.
 #[derive(Clone, Default)]

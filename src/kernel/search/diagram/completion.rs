@@ -1,15 +1,15 @@
-//! What a partly chosen mechanism still needs, by dimensions alone.
+//! The least cost of completing a partly chosen mechanism, by dimensions only.
 //!
-//! What the choices of a node add in the open contours has a dimension r. A choice adds its own dimensions at most, and each coordinate
-//! that closes takes one, but for what may stay redundant. So dimensions carried over the stages as if every freedom told are never less
-//! than the true ones, and what fails by dimensions fails. The cheapest choices that do not fail so cost no more than the cheapest true
-//! completion: a lower bound, found for every stage and dimension at once.
+//! The choices of a node add a subspace of dimension r in the open contours. A choice raises r by at most its own dimension. Each
+//! coordinate that closes lowers r by one, unless it may stay redundant. Dimensions computed as if every freedom counted are never less
+//! than the true ones, so a completion that fails by dimensions fails. The cheapest choices that do not fail cost no more than the
+//! cheapest true completion. This lower bound is found for every stage and dimension at once.
 //!
-//! The redundant constraints still allowed are as good as dimensions where a coordinate closes, and are counted with them.
+//! Redundant constraints that are still allowed do the work of dimensions when a coordinate closes, and are counted with them.
 
 use crate::linalg::modp::Residue;
-use crate::search::diagram::lane_stage::Stage;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
+use crate::search::diagram::stage::Stage;
 use crate::search::question::space::{Choice, Space};
 use std::collections::BTreeMap;
 
@@ -105,7 +105,7 @@ impl Missing {
         }
     }
 
-    /// Returns the least cost in thousandths of a variant; `None` where there is none.
+    /// Returns the least cost in thousandths of a variant; `None` if there is no variant.
     pub(in crate::search) fn root(&self) -> Option<i64> {
         self.least(0, &self.root, &[])
     }

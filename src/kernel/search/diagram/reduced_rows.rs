@@ -26,22 +26,13 @@ impl Clone for Rows {
 }
 
 impl Rows {
-    /// No rows.
-    pub(in crate::search) const fn new() -> Rows {
-        Rows {
-            width: 0,
-            pivots: Vec::new(),
-            data: Vec::new(),
-        }
-    }
-
     pub(in crate::search) fn clear(&mut self, width: usize) {
         self.width = width;
         self.pivots.clear();
         self.data.clear();
     }
 
-    /// Appends what tells rows of a width apart: the pivots, as bits, and of each row the numbers that stand in no pivot's column.
+    /// Appends the pivots as bits, and of each row the numbers outside of pivots' columns. Different spans append different words.
     pub(super) fn pack(&self, out: &mut Vec<Residue>) {
         let start = out.len();
         out.resize(start + self.width.div_ceil(64), 0);

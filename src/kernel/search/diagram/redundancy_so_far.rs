@@ -14,6 +14,8 @@ pub(crate) struct Limits {
     pub external: Option<u32>,
     /// Harmful ones among them.
     pub harmful: Option<u32>,
+    /// Whether the lanes of the searched state count what it adds to the free state, not all that it has.
+    pub beside_free: bool,
     /// Nodes in all.
     pub nodes: usize,
     /// Nodes of one layer; what has more is wanted whole or not at all.
@@ -22,7 +24,7 @@ pub(crate) struct Limits {
     pub bytes: usize,
 }
 
-/// What a lane counts.
+/// The count of a lane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::search) enum Role {
     /// Redundant constraints of the free state.
@@ -68,7 +70,7 @@ impl Spent {
         }
     }
 
-    /// Counts what a variable makes redundant in a lane; 0 is the free state's.
+    /// Adds the constraints that a variable makes redundant in a lane; lane 0 is the free state's.
     pub(in crate::search) fn add(&mut self, lane: usize, redundant: u32) {
         match lane.checked_sub(1) {
             None => self.internal += redundant,
@@ -110,11 +112,11 @@ impl Spent {
         })
     }
 
-    /// Ends the lanes. External is what the searched state has more than the free one. Harmful is what friction alone does not explain,
-    /// with moments taken up at the face that explains most.
-    pub(in crate::search) fn settle(&mut self, roles: &[Role]) {
-        let internal = i32::try_from(self.internal).unwrap_or(i32::MAX);
-        let (mut state, mut common, mut harmless) = (0, internal, None::<i32>);
+    /// Replaces the counts of the lanes by those of the variant: the external redundant constraints, which the searched state has beyond
+    /// the free one, and the harmful ones, which friction does not explain if the face that explains most takes moments.
+    pub(in crate::search) fn settle(&mut self, roles: &[Role], limits: &Limits) {
+        let free = self.counted_of_free(limits);
+        let (mut state, mut common, mut harmless) = (0, free, None::<i32>);
         for (i, role) in roles
             .iter()
             .enumerate()
@@ -129,7 +131,7 @@ impl Spent {
             }
         }
         let harmful = state - harmless.unwrap_or(common).max(common);
-        self.lanes = vec![state - internal, harmful];
+        self.lanes = vec![state - free, harmful];
     }
 
     /// Redundant constraints within the mechanism so far.
@@ -137,14 +139,26 @@ impl Spent {
         self.internal
     }
 
-    /// Returns whether no more redundant constraints are within the mechanism than there may be, nor in the searched state so far than it
-    /// may add to as many; its lane is the first.
+    /// Returns whether the mechanism has no more redundant constraints than it may have, nor the searched state, whose lane is the first,
+    /// more than it may add to these.
     pub(in crate::search) fn within(&self, limits: &Limits) -> bool {
         let state = self.lanes.first().map_or(0, |&n| i64::from(n));
-        let most = limits
-            .external
-            .map(|external| i64::from(external) + i64::from(limits.internal));
+        let of_free = if limits.beside_free {
+            0
+        } else {
+            i64::from(limits.internal)
+        };
+        let most = limits.external.map(|n| i64::from(n) + of_free);
         self.internal <= limits.internal && most.is_none_or(|most| state <= most)
+    }
+
+    /// Returns how many redundant constraints of the free state the lanes of the searched one count too.
+    fn counted_of_free(&self, limits: &Limits) -> i32 {
+        if limits.beside_free {
+            0
+        } else {
+            i32::try_from(self.internal).unwrap_or(i32::MAX)
+        }
     }
 
     /// Returns whether the state adds no more than it may, its lanes being settled.

@@ -1,12 +1,11 @@
-//! One transition of the diagram: a node carried over a variable, for each of its choices.
+//! One transition of the diagram: the children of a node at a variable, one for each choice.
 //!
 //! Everything here works on flat scratch space that a thread keeps, in a field with a memory of inverses.
 
 use crate::linalg::modp::{Field, Residue};
-use crate::search::diagram::columns::{Adding, Columns};
-use crate::search::diagram::lane_stage::Stage;
 use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::{Role, Spent};
+use crate::search::diagram::stage::{Adding, Columns, Stage};
 
 /// A child: its hash, the redundancy spent, and where its matrix starts and ends.
 pub(in crate::search) type Child = (u64, Spent, usize, usize);
@@ -81,8 +80,8 @@ impl Worker {
     pub(in crate::search) fn new(field: Field) -> Self {
         Worker {
             arithmetic: Arithmetic::new(field),
-            bases: [const { Rows::new() }; 2],
-            grown: [const { Vec::new() }; 2],
+            bases: Default::default(),
+            grown: Default::default(),
             vector: Vec::new(),
             children: Vec::new(),
         }
@@ -109,7 +108,7 @@ impl Worker {
         }
     }
 
-    /// Takes all children of a node, in order of choices.
+    /// Appends all children of a node, in order of choices.
     pub(in crate::search) fn children(
         &mut self,
         stage: &Stage<'_>,
@@ -160,14 +159,15 @@ impl Worker {
         for child in &mut self.children {
             if let Some(roles) = stage.ending.as_ref().filter(|_| child.alive) {
                 child.alive = child.spent.holds_all(roles);
-                child.spent.settle(roles);
+                child.spent.settle(roles, stage.limits);
                 child.alive &= child.spent.state_within(stage.limits);
             }
             out.take(child);
         }
     }
 
-    /// Takes all children of a node of which all motions of kept links are told, in order of choices; those without redundant constraints.
+    /// Appends the children of a node whose rows have all coordinates of kept links, in order of choices. A child with a redundant
+    /// constraint is dead.
     pub(in crate::search) fn flat_children(
         &mut self,
         stage: &Adding,

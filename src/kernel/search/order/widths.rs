@@ -1,25 +1,36 @@
 //! How many coordinates are open behind each variable of an order, which says how large its layers are.
 //!
-//! What the variables so far add and what those to come add have a space in common: a node tells which part of it the choices fill.
-//! Its dimension is r(S) + r(T) - r for the ranks of the vectors S of the variables so far, T of those to come, and of all. In the dual
-//! matroid, whose vectors are the relations of all, r(T) = r - |S| + r*(S), so both ranks grow with S vector by vector.
+//! The variables so far and those to come add vectors that span a common space, and a node says which part of it the choices fill. Its
+//! dimension is r(S) + r(T) - r for the ranks of the vectors S of the variables so far, T of those to come, and of all. In the dual
+//! matroid, whose vectors are the relations of all, r(T) = r - |S| + r*(S). So both ranks grow with S vector by vector.
+//!
+//! Coordinates of contours decide. Those of kept links break ties.
 //!
 //! # Sources
 //! Oxley, "Matroid Theory" (2011), section 2.1, for the rank of the dual; connectivity of a set and its complement: Oum & Seymour,
 //! "Approximating clique-width and branch-width", J. Combin. Theory B 96 (2006).
 
-use crate::closure::contour::contour_basis;
 use crate::linalg::echelon::{Echelon, relations};
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::StateId;
-use crate::search::question::Question;
+use crate::search::question::space::Space;
 use crate::search::reduce::self_stress_space::ClosingRows;
 use std::collections::BTreeMap;
 
-/// What each variable of a block adds to the present joints, and its part in the relations of all that is added.
+/// A vector that a variable adds to the original joints, and its part in the relations of all that is added.
+type Pair = [Vec<Residue>; 2];
+
+/// The vectors that each variable of a block adds: in the rows of contours, and in these and the rows of kept links.
 pub(in crate::search) struct Widths {
     field: Field,
-    vectors: BTreeMap<usize, Vec<[Vec<Residue>; 2]>>,
+    vectors: [BTreeMap<usize, Vec<Pair>>; 2],
+}
+
+/// The dimension that the variables so far and those to come have in common.
+#[derive(Clone)]
+struct Width {
+    /// The span of the vectors so far, and of their parts in the relations.
+    spans: [Echelon; 2],
+    vectors: usize,
 }
 
 /// An order, as far as it has come.
@@ -27,76 +38,95 @@ pub(in crate::search) struct Widths {
 pub(in crate::search) struct Trial {
     /// The variables so far.
     pub(in crate::search) order: Vec<usize>,
-    /// The work so far: 4 for each open coordinate, multiplied, for each variable.
-    pub(in crate::search) work: u64,
-    /// The span of the vectors so far, and of their parts in the relations.
-    spans: [Echelon; 2],
-    vectors: usize,
+    /// The work so far, summed over the variables: 4 to the power of the open coordinates of contours, then the open coordinates of both
+    /// kinds.
+    pub(in crate::search) work: [u64; 2],
+    widths: [Width; 2],
 }
 
 impl Widths {
-    /// Returns the widths of orders of a block's variables in a state; what the state adds comes after them.
+    /// Returns the widths of orders of a block's variables. Variables in `later` come after them.
     ///
     /// # Complexity
-    /// One elimination of all vectors that the choices add.
+    /// Two eliminations of all vectors that the choices add.
     pub(in crate::search) fn new(
-        question: &Question,
+        field: Field,
+        space: &Space,
+        rows: &ClosingRows<'_>,
         variables: &[usize],
-        state: StateId,
+        later: &[usize],
     ) -> Widths {
-        let (field, space) = (question.exact.field(), &question.model.space);
-        let contours = contour_basis(&question.mechanism, state);
-        let none = Vec::new();
-        let rows = ClosingRows::in_state(&question.mechanism, space.dim, state, &contours, none);
-        let columns = |v: usize, c: usize| rows.columns(field, &space.variables[v], c);
-        let added = (0..space.variables.len())
-            .filter(|&v| state != StateId::FREE && space.variables[v].external);
-        let variables: Vec<usize> = variables.iter().copied().chain(added).collect();
-        let present = Echelon::of(field, variables.iter().flat_map(|&v| columns(v, 0)));
-        let mut all: Vec<Vec<Residue>> = Vec::new();
-        let mut of_variable = Vec::new();
-        for &v in &variables {
-            let mut own = Echelon::new(field);
-            for c in 1..space.variables[v].choices.len() {
-                for mut column in columns(v, c) {
-                    present.reduce(&mut column);
-                    if own.insert(&column) {
-                        of_variable.push(v);
-                        all.push(column);
-                    }
-                }
-            }
+        let all = [variables, later].concat();
+        let of_rows = |rows_in_use: usize| added_vectors(field, space, rows, &all, rows_in_use);
+        let closing = rows.closing();
+        Widths {
+            field,
+            vectors: [closing, closing + rows.kept()].map(of_rows),
         }
-        let relations = relations(field, &all);
-        let mut vectors: BTreeMap<usize, Vec<[Vec<Residue>; 2]>> = BTreeMap::new();
-        for (i, (v, vector)) in of_variable.into_iter().zip(all).enumerate() {
-            let dual = relations.iter().map(|r| r[i]).collect();
-            vectors.entry(v).or_default().push([vector, dual]);
-        }
-        Widths { field, vectors }
     }
 
     /// Returns the order of no variable yet.
     pub(in crate::search) fn start(&self) -> Trial {
-        Trial {
-            order: Vec::new(),
-            work: 0,
+        let width = || Width {
             spans: [Echelon::new(self.field), Echelon::new(self.field)],
             vectors: 0,
+        };
+        Trial {
+            order: Vec::new(),
+            work: [0; 2],
+            widths: [width(), width()],
         }
     }
 
     /// Adds a variable to an order.
     pub(in crate::search) fn add(&self, trial: &mut Trial, variable: usize) {
-        for pair in self.vectors.get(&variable).into_iter().flatten() {
-            for (span, vector) in trial.spans.iter_mut().zip(pair) {
-                span.insert(vector);
+        let mut open = [0; 2];
+        for (i, width) in trial.widths.iter_mut().enumerate() {
+            for pair in self.vectors[i].get(&variable).into_iter().flatten() {
+                for (span, vector) in width.spans.iter_mut().zip(pair) {
+                    span.insert(vector);
+                }
+                width.vectors += 1;
             }
-            trial.vectors += 1;
+            open[i] = width.spans[0].rank() + width.spans[1].rank() - width.vectors;
         }
-        let open = trial.spans[0].rank() + trial.spans[1].rank() - trial.vectors;
-        let width = 1u64.checked_shl(2 * u32::try_from(open).unwrap_or(u32::MAX).min(31));
-        trial.work = trial.work.saturating_add(width.unwrap_or(u64::MAX));
+        let nodes = 1u64 << (2 * open[0].min(31));
+        trial.work[0] = trial.work[0].saturating_add(nodes);
+        trial.work[1] += open[1] as u64;
         trial.order.push(variable);
     }
+}
+
+/// Returns the independent vectors that each variable adds to the original joints in the first rows.
+fn added_vectors(
+    field: Field,
+    space: &Space,
+    rows: &ClosingRows<'_>,
+    variables: &[usize],
+    rows_in_use: usize,
+) -> BTreeMap<usize, Vec<Pair>> {
+    let columns = |v: usize, c: usize| {
+        let mut columns = rows.columns(field, &space.variables[v], c);
+        columns.iter_mut().for_each(|c| c.truncate(rows_in_use));
+        columns
+    };
+    let original = Echelon::of(field, variables.iter().flat_map(|&v| columns(v, 0)));
+    let (mut of_variable, mut all) = (Vec::new(), Vec::new());
+    for &v in variables {
+        let mut own = Echelon::new(field);
+        for mut column in (1..space.variables[v].choices.len()).flat_map(|c| columns(v, c)) {
+            original.reduce(&mut column);
+            if own.insert(&column) {
+                of_variable.push(v);
+                all.push(column);
+            }
+        }
+    }
+    let relations = relations(field, &all);
+    let mut vectors: BTreeMap<usize, Vec<Pair>> = BTreeMap::new();
+    for (i, (v, vector)) in of_variable.into_iter().zip(all).enumerate() {
+        let dual = relations.iter().map(|r| r[i]).collect();
+        vectors.entry(v).or_default().push([vector, dual]);
+    }
+    vectors
 }

@@ -158,9 +158,9 @@ pub enum SearchError {
         /// How many independent motions are left.
         motions: usize,
     },
-    /// A choice without a motion of the present joint.
+    /// A choice that lacks a motion of the original joint.
     #[error(
-        "{option} at {joint} lacks a motion of the present joint, and a redesign only adds motions: choose an option that has them all"
+        "{option} at {joint} lacks a motion of the joint as built, and a redesign only adds motions: choose an option that has them all"
     )]
     LosesMotion {
         /// The joint.
