@@ -37,13 +37,14 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use sha2::{Digest, Sha256};
 
-/// Random numbers of a start, the same for the same name and seed.
+/// Returns the random numbers of a start, the same for the same name and seed.
 pub(crate) fn random(name: &str, seed: u64, start: u32) -> ChaCha8Rng {
-    let name = format!("{name} {seed} {start}");
-    let digest = Sha256::digest(name);
-    let mut key = [0; 32];
-    key.copy_from_slice(&digest);
-    ChaCha8Rng::from_seed(key)
+    random_of(&format!("{name} {seed} {start}"))
+}
+
+/// Returns random numbers that follow from a text, the same for the same text.
+pub(crate) fn random_of(text: &str) -> ChaCha8Rng {
+    ChaCha8Rng::from_seed(Sha256::digest(text).into())
 }
 
 /// From 0 to 1.

@@ -19,12 +19,11 @@ use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Stop};
 use crate::synthesis::mechanism::bare_file;
 use crate::synthesis::places::Places;
+use crate::synthesis::random_of;
 use crate::synthesis::rules::Rules;
 use crate::synthesis::structure::{Form, Lay, Structure};
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
+use chacha20::rand_core::Rng;
 use num_bigint::BigUint;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
@@ -87,10 +86,7 @@ impl InputPair {
 fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechanism, RowError> {
     let PairStructure { chain, roles } = &structure.structure;
     let [u, v] = roles.input;
-    let digest = Sha256::digest(format!("{} {u}-{v} {number}", graph6::write(chain)));
-    let mut key = [0; 32];
-    key.copy_from_slice(&digest);
-    let mut random = ChaCha8Rng::from_seed(key);
+    let mut random = random_of(&format!("{} {u}-{v} {number}", graph6::write(chain)));
     // Halved, so that differences of places are as small.
     let mut coordinate = || f64::from(random.next_u32().cast_signed() / 2);
     let swap = (0..chain.links()).collect();

@@ -4,11 +4,10 @@ use crate::chains::Input;
 use crate::synthesis::figures::figures;
 use crate::synthesis::layout::Layout;
 use crate::synthesis::place::{FINE, Place};
+use crate::synthesis::random_of;
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::structure::Structure;
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
-use sha2::{Digest, Sha256};
+use chacha20::rand_core::Rng;
 
 /// The layout with its pins moved by less than half a millimetre each, to thousandths; the same for the same seed and number.
 /// `None` where it no longer keeps the limits, does not do the task that it did, or has no planes where it had. What slides stays on its
@@ -23,10 +22,7 @@ pub(crate) fn beside(
     seed: u64,
     number: u32,
 ) -> Option<Layout> {
-    let digest = Sha256::digest(format!("{} {seed} beside {number}", structure.name()));
-    let mut key = [0; 32];
-    key.copy_from_slice(&digest);
-    let mut random = ChaCha8Rng::from_seed(key);
+    let mut random = random_of(&format!("{} {seed} beside {number}", structure.name()));
     // From -499 to 499.
     let mut off = || (random.next_u32() % (FINE - 1).cast_unsigned()).cast_signed() + 1 - FINE / 2;
     let sketch = Sketch::new(structure, layout.rules.clone(), layout.limits);
