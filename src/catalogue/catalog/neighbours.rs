@@ -182,13 +182,11 @@ struct Own {
 
 impl Own {
     fn new(structure: &PairStructure) -> Own {
-        let two = structure.without_two_links();
-        let four = two.iter().flat_map(PairStructure::without_two_links);
         Own {
             links: structure.chain.links(),
             chain: hinged(structure),
             key: structure.key(),
-            less: [keys(two.iter()), keys(four.collect_vec().iter())],
+            less: [2, 4].map(|by| keys_without(structure, by)),
         }
     }
 
@@ -208,14 +206,8 @@ impl Own {
                 is_left.then_some((1, by))
             }
             by @ (2 | 4) => {
-                let mut left = other.without_two_links();
-                if by == 4 {
-                    left = left
-                        .iter()
-                        .flat_map(PairStructure::without_two_links)
-                        .collect();
-                }
-                keys(left.iter()).contains(&self.key).then_some((2, by))
+                let is_left = keys_without(other, by).contains(&self.key);
+                is_left.then_some((2, by))
             }
             _ => None,
         }
@@ -231,6 +223,11 @@ fn hinged(structure: &PairStructure) -> Chain {
         .0
 }
 
-fn keys<'a>(all: impl Iterator<Item = &'a PairStructure>) -> HashSet<Weighted> {
-    all.map(PairStructure::key).collect()
+/// Returns the keys of the structures that are left without two links, or without four.
+fn keys_without(structure: &PairStructure, links: usize) -> HashSet<Weighted> {
+    let mut left = structure.without_two_links();
+    if links == 4 {
+        left = (left.iter().flat_map(PairStructure::without_two_links)).collect();
+    }
+    left.iter().map(PairStructure::key).collect()
 }
