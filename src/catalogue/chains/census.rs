@@ -107,12 +107,17 @@ impl Grippers {
         self.0[of as usize] += u64::from(holds);
     }
 
-    /// Takes what is counted of a gripper of hinges alone, driven from the frame.
-    fn take_hinged(&mut self, subject: &Subject<'_>, roles: &Roles) {
+    /// Counts a gripper, and returns whether it is essential: all other counts are of essential ones.
+    fn take_essential(&mut self, subject: &Subject<'_>, roles: &Roles) -> bool {
         let essential = subject.is_essential(roles);
         self.take(Counted::All, true);
         self.take(Counted::Essential, essential);
-        if !essential {
+        essential
+    }
+
+    /// Takes what is counted of a gripper of hinges alone, driven from the frame.
+    fn take_hinged(&mut self, subject: &Subject<'_>, roles: &Roles) {
+        if !self.take_essential(subject, roles) {
             return;
         }
         let at_frame = [Counted::Floating, Counted::OneAtFrame, Counted::BothAtFrame];
@@ -131,10 +136,7 @@ impl Grippers {
 
     /// Takes what is counted of a gripper of any pairs.
     fn take_paired(&mut self, subject: &Subject<'_>, roles: &Roles) {
-        let essential = subject.is_essential(roles);
-        self.take(Counted::All, true);
-        self.take(Counted::Essential, essential);
-        if !essential {
+        if !self.take_essential(subject, roles) {
             return;
         }
         let s = subject.symmetries(roles);
