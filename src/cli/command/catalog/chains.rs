@@ -62,7 +62,10 @@ impl PairArgs {
         listing: &Listing,
         bar: &mut Bar,
     ) -> anyhow::Result<Done> {
-        listing.is_of_one_motion("--pairs")?;
+        ensure!(
+            listing.mobility == 1,
+            "--pairs counts chains of one motion: leave --mobility out"
+        );
         ensure!(
             *links.end() <= MOST_LINKS,
             "chains of pairs are counted up to {MOST_LINKS} links: there are too many beyond"
@@ -108,15 +111,6 @@ struct Listing {
 }
 
 impl Listing {
-    /// Refuses chains of several motions where `option` is about those of one.
-    fn is_of_one_motion(&self, option: &str) -> anyhow::Result<()> {
-        ensure!(
-            self.mobility == 1,
-            "{option} counts chains of one motion: leave --mobility out"
-        );
-        Ok(())
-    }
-
     /// Writes what was found, one row each, or as `text` for a terminal of some width.
     fn give<T: Serialize>(
         &self,
