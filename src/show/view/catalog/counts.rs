@@ -7,7 +7,7 @@ use crate::chains::roles::Subject;
 use crate::chains::symmetric_census::SymmetricKind;
 use crate::format::grouped;
 use crate::view::terminal::layout::{fit, table};
-use itertools::Itertools;
+use itertools::{Itertools, iproduct};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -362,8 +362,8 @@ pub fn symmetric_rows(
     most: usize,
     counts: &BTreeMap<SymmetricKind, u64>,
 ) -> Vec<SymmetricCountsData> {
-    let ways = PLACES.into_iter().cartesian_product(0..=most);
-    let row = |((half_turn, driven_jaw), orbits)| {
+    let ways = iproduct!([false, true], [false, true], 0..=most);
+    let row = |(half_turn, driven_jaw, orbits)| {
         let kind = SymmetricKind {
             half_turn,
             driven_jaw,
