@@ -89,9 +89,7 @@ impl Sketch<'_> {
             }
         };
     }
-}
 
-impl Sketch<'_> {
     /// The link that has the pin or the block of a joint; none of what has no point on its links.
     pub(super) fn link_of(&self, at: &Places, joint: usize) -> Option<usize> {
         match self.rules.joints[joint].pair {

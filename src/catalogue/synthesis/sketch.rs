@@ -47,7 +47,7 @@ impl<'a> Sketch<'a> {
     #[must_use]
     pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Sketch<'a> {
         let (chain, roles) = (&structure.structure.chain, &structure.structure.roles);
-        let drive = structure.structure.roles.drive();
+        let drive = roles.drive();
         let pinned = |link: usize| {
             let mut own = rules.joints.iter().filter(|j| j.is_at(link));
             own.all(|j| j.pair == PairKind::Hinge)
@@ -104,9 +104,9 @@ impl<'a> Sketch<'a> {
     }
 }
 
-/// The sketches of all well-known structures that have rules of their own, each with its name.
-/// Pitch circles are that large, in millimetres: less is a pinion too small, more a wheel too large.
+/// The radius of the largest wheel that costs nothing, in millimetres.
 const LARGE: f64 = 25.0;
+/// The radius of the smallest pinion that costs nothing, in millimetres.
 const SMALL: f64 = 8.0;
 
 impl Sketch<'_> {
@@ -163,6 +163,7 @@ impl Sketch<'_> {
     }
 }
 
+/// Calls `take` with the sketch of each well-known structure that has rules, and with its name.
 #[cfg(test)]
 pub(in crate::synthesis) fn each_classic(mut take: impl FnMut(&str, &Sketch<'_>)) {
     use crate::chains::classics::classics;
