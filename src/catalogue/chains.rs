@@ -64,6 +64,13 @@ impl PairKind {
         PairKind::ALL[self as usize - 1].2
     }
 
+    /// Returns the kind that a letter names in codes.
+    #[must_use]
+    pub(crate) fn of_letter(letter: char) -> Option<PairKind> {
+        let found = PairKind::ALL.iter().find(|kind| kind.2 == letter);
+        found.map(|kind| kind.0)
+    }
+
     /// The kind of a weight of a graph's edge, where there is an edge.
     #[must_use]
     pub(crate) fn of_weight(weight: u8) -> Option<PairKind> {
@@ -151,5 +158,14 @@ impl Input {
     #[must_use]
     pub fn name(self) -> &'static str {
         Input::ALL[self as usize].1
+    }
+
+    /// Returns the kind of the driven joint.
+    #[must_use]
+    pub(crate) fn pair(self) -> PairKind {
+        match self {
+            Input::Slide => PairKind::Slide,
+            Input::Turn => PairKind::Hinge,
+        }
     }
 }

@@ -134,7 +134,7 @@ impl Chain {
     /// The mobility by counting.
     #[must_use]
     pub fn mobility(&self) -> usize {
-        let joints = self.joints_made().into_iter();
+        let joints = self.joints().into_iter();
         let taken: usize = joints
             .map(|j| if j.pair.leaves_two() { 1 } else { 2 })
             .sum();
@@ -159,7 +159,7 @@ impl Chain {
             match letters.next()? {
                 '-' => {}
                 letter => {
-                    let pair = PairKind::ALL.iter().find(|k| k.2 == letter)?.0;
+                    let pair = PairKind::of_letter(letter)?;
                     joints.push(Joint { links, pair });
                 }
             }

@@ -63,7 +63,7 @@ impl Written {
         let two = |a: &str, b: &str| Some(ordered([place(a)?, place(b)?]));
         let both = |words: &str| words.split_once(' ').and_then(|(a, b)| two(a, b));
         let joint = |&(a, b, kind): &(&str, &str, &str)| {
-            let pair = PairKind::ALL.iter().find(|k| kind.chars().eq([k.2]))?.0;
+            let pair = PairKind::of_letter(kind.parse().ok()?)?;
             let links = two(a, b)?;
             Some(Joint { links, pair })
         };

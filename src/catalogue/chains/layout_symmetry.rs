@@ -5,7 +5,7 @@
 
 use crate::chains::motion::{Swap, motions_in_way};
 use crate::chains::roles::{Roles, Subject};
-use crate::chains::{Input, PairKind, Symmetry};
+use crate::chains::{Input, Symmetry};
 use itertools::Itertools;
 use thiserror::Error;
 
@@ -45,11 +45,7 @@ fn moves(
     input: Input,
     swap: &[usize],
 ) -> Result<(), NoGripper> {
-    let pair = match input {
-        Input::Slide => PairKind::Slide,
-        Input::Turn => PairKind::Hinge,
-    };
-    let chain = subject.chain.clone().with(roles.input, pair);
+    let chain = subject.chain.clone().with(roles.input, input.pair());
     let swap = Swap {
         links: swap,
         image: symmetry,

@@ -175,7 +175,7 @@ impl Row {
     fn new(chain: &Chain, links: [usize; 2]) -> Option<Row> {
         let [u, v] = links;
         let end = |of: usize, but: usize| {
-            let others = (0..chain.links()).filter(|&l| l != but && chain.between(of, l).is_some());
+            let others = (0..chain.links()).filter(|&l| l != but && chain.joined(of, l));
             others.exactly_one().ok()
         };
         let ends = [end(u, v)?, end(v, u)?];

@@ -5,7 +5,7 @@ use crate::chains::sharing::Menu;
 use crate::chains::structure::PairStructure;
 use crate::chains::symmetric_census::symmetric_grippers;
 use crate::chains::visit::visit_pair_chains;
-use crate::chains::{Input, PairKind, Symmetry};
+use crate::chains::{Input, Symmetry};
 use crate::synthesis::structure::{Form, Structure};
 use itertools::Itertools;
 use std::collections::BTreeSet;
@@ -83,10 +83,7 @@ pub fn hinged_structures(
             continue;
         }
         for &&(input, form) in forms.iter().filter(|(_, f)| symmetric || is_generic(f)) {
-            let chain = match input {
-                Input::Slide => subject.chain.clone().with(roles.input, PairKind::Slide),
-                Input::Turn => subject.chain.clone(),
-            };
+            let chain = subject.chain.clone().with(roles.input, input.pair());
             let roles = roles.clone();
             let structure = Structure::new(PairStructure { chain, roles }, form);
             if !form.parallel || structure.rings().is_some() {

@@ -408,7 +408,7 @@ fn mesh(
         return None;
     }
     let held = |carrier: usize, gear: usize| {
-        let links = [carrier.min(gear), carrier.max(gear)];
+        let links = ordered([carrier, gear]);
         joints.iter().position(|j| j.links == links)
     };
     let [u, v] = joint.links;

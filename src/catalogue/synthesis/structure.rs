@@ -4,7 +4,7 @@ use crate::chains::chain::{Joint, carried, ordered};
 use crate::chains::classics::MadeAs;
 use crate::chains::layout_symmetry::{NoGripper, working_swap};
 use crate::chains::motion::{Swap, symmetric_ways};
-use crate::chains::roles::Subject;
+use crate::chains::roles::{Subject, carries_round};
 use crate::chains::structure::PairStructure;
 use crate::chains::{Input, PairKind, Symmetry, graph6};
 use crate::synthesis::place::Place;
@@ -261,13 +261,13 @@ impl Structure {
             return self.moving_lays([identity]).collect();
         }
         // Those that carry three jaws to each other are made of two of them.
-        let &[a, b] = &roles.jaws[..] else {
+        if roles.jaws.len() != 2 {
             return Vec::new();
-        };
+        }
         let involutions = chain.automorphisms().into_iter().filter(|s| {
-            let back = (0..s.len()).all(|l| s[s[l]] == l);
             let keeps = carried(roles.input, s) == roles.input;
-            back && keeps != self.form.one_sided && s[roles.frame] == roles.frame && s[a] == b
+            let fixed = s[roles.frame] == roles.frame && keeps != self.form.one_sided;
+            fixed && carries_round(&roles.jaws, s)
         });
         if self.form.threaded {
             // A screw turns as its mirror image does, so that nuts of a right and a left thread are each other's image.
@@ -326,7 +326,7 @@ impl Structure {
     #[must_use]
     pub fn rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
-        let [base, driver] = self.structure.roles.drive();
+        let [base, driver] = roles.drive();
         let sliding = (base == roles.frame && self.structure.slides()).then_some(driver);
         let hinged = |u: usize, v: usize| chain.between(u, v) == Some(PairKind::Hinge);
         let ring = |jaw: usize| {
@@ -340,9 +340,7 @@ impl Structure {
         };
         roles.jaws.iter().map(|&jaw| ring(jaw)).collect()
     }
-}
 
-impl Structure {
     /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
     /// jaws: it swaps two.
     #[must_use]
@@ -388,7 +386,7 @@ impl Structure {
     #[must_use]
     pub(crate) fn with_threads(&self) -> Option<Structure> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
-        let [base, screw] = self.structure.roles.drive();
+        let [base, screw] = roles.drive();
         let is_nut = |&jaw: &usize| {
             chain.between(jaw, screw) == Some(PairKind::Gear)
                 && chain.between(jaw, base) == Some(PairKind::Slide)
@@ -409,9 +407,7 @@ impl Structure {
         let found = found.form.parallel.then_some(found);
         std::iter::once(self).chain(found)
     }
-}
 
-impl Structure {
     /// Whether all joints are hinges but for a driver that slides in the frame, and no jaw is driven: laid out as a hinged structure.
     #[must_use]
     pub fn is_hinged(&self) -> bool {
