@@ -124,7 +124,7 @@ fn measured(kind: &Kind, links: usize, sample: usize) -> Measured {
         ends.push(ends.last().unwrap_or(&0) + of_chain.len());
         pairs += of_chain
             .iter()
-            .filter_map(InputPair::of)
+            .filter_map(InputPair::of_structure)
             .collect::<BTreeSet<_>>()
             .len();
     }

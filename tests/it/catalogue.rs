@@ -101,7 +101,7 @@ fn each_of(
 }
 
 fn form(input: Input, symmetry: Symmetry, parallel: bool) -> (Input, Form) {
-    let of = Form::of(symmetry);
+    let of = Form::of_symmetry(symmetry);
     let form = Form {
         parallel,
         hinges: true,

@@ -64,7 +64,7 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
         all
     };
     all.retain(|s| shard.has(&s.name()));
-    let together = all.into_iter().into_group_map_by(InputPair::of);
+    let together = all.into_iter().into_group_map_by(InputPair::of_structure);
     Ok(Work {
         structures: together
             .into_iter()

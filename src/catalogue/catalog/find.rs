@@ -82,7 +82,7 @@ pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
             Some(code) => Chain::of_code(chain.links(), code)?,
             None => {
                 if slides {
-                    chain.with(input, PairKind::Slide)
+                    chain.with_pair(input, PairKind::Slide)
                 } else {
                     chain
                 }

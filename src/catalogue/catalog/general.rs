@@ -59,7 +59,7 @@ pub struct InputPair {
 impl InputPair {
     /// The pair of a structure; `None` where its layouts are special on purpose, or it is not of hinges alone.
     #[must_use]
-    pub fn of(structure: &Structure) -> Option<InputPair> {
+    pub fn of_structure(structure: &Structure) -> Option<InputPair> {
         let form = structure.form;
         let general = form.hinges && form.symmetry == Symmetry::Generic && !form.parallel;
         let PairStructure { chain, roles } = &structure.structure;
@@ -125,7 +125,7 @@ impl General {
     /// # Complexity
     /// Two searches.
     pub fn of(structure: &Structure, spec: &Spec) -> Result<Option<General>, RowError> {
-        let Some(pair) = InputPair::of(structure) else {
+        let Some(pair) = InputPair::of_structure(structure) else {
             return Ok(None);
         };
         let first = pair.structure(structure.form);

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
     let of = &row.structure;
     let id = of.id();
-    let whole = of.whole();
+    let whole = of.whole_structure();
     let [driven_from, driver] = (of.structure.roles.drive()).map(|l| of.link(l, 0).unwrap_or(0));
     let (chain, roles) = (&whole.chain, &whole.roles);
     put(
@@ -52,7 +52,7 @@ pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<(
     if !of.form.hinges {
         let flat = of.flat_slots();
         let flat = flat.iter().map(|j| of.copies(j)).sum();
-        let kinds = Kinds::of(chain).with_flat(flat);
+        let kinds = Kinds::of_chain(chain).with_flat(flat);
         put(
             t,
             "pairs",

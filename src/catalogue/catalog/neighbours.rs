@@ -218,7 +218,7 @@ impl Own {
 fn hinged(structure: &PairStructure) -> Chain {
     let chain = structure.chain.clone();
     chain
-        .with(structure.roles.input, PairKind::Hinge)
+        .with_pair(structure.roles.input, PairKind::Hinge)
         .canonical()
         .0
 }

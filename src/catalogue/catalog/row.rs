@@ -173,7 +173,7 @@ pub fn row_of_pair(
         Ok(layout) => lay(structure, layout, spec, general),
         Err(why) => Ok(Err(why)),
     })?;
-    let PairStructure { chain, roles } = structure.whole();
+    let PairStructure { chain, roles } = structure.whole_structure();
     let subject = Subject::new(&chain, []);
     Ok(StructureRow {
         jaws_at_frame: subject.jaws_at_frame(&roles),

@@ -196,7 +196,7 @@ impl Spec {
             Symmetry::Generic => self.generic_pairs,
             Symmetry::Threefold => false,
         };
-        let forms = symmetries.into_iter().filter(asked).map(Form::of);
+        let forms = symmetries.into_iter().filter(asked).map(Form::of_symmetry);
         let forms = forms.cartesian_product([false, true]);
         let forms = forms.map(|(f, parallel)| Form { parallel, ..f });
         let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
@@ -217,9 +217,9 @@ impl Spec {
         }
         let pairs = !self.pairs()?.is_empty();
         let parallel = self.parallelograms()?;
-        let turning = (Input::Turn, Form::of(Symmetry::HalfTurn));
+        let turning = (Input::Turn, Form::of_symmetry(Symmetry::HalfTurn));
         let sliding = [false, true].map(|parallel| {
-            let form = Form::of(Symmetry::Mirror);
+            let form = Form::of_symmetry(Symmetry::Mirror);
             (Input::Slide, Form { parallel, ..form })
         });
         let all = std::iter::once(turning).filter(|_| pairs).chain(sliding);

@@ -27,7 +27,7 @@ pub struct Kinds {
 impl Kinds {
     /// Of a chain.
     #[must_use]
-    pub fn of(chain: &Chain) -> Kinds {
+    pub fn of_chain(chain: &Chain) -> Kinds {
         Kinds {
             slides: chain.count(PairKind::Slide),
             gears: chain.count(PairKind::Gear),
@@ -206,7 +206,7 @@ impl AddAssign for Census {
 }
 
 impl Census {
-    fn of_chain(subject: &Subject<'_>) -> Census {
+    fn of_choices(subject: &Subject<'_>) -> Census {
         let (between, at_frame): (Vec<_>, Vec<_>) =
             (subject.drives().into_iter()).partition(|(frame, input)| !input.is_at(*frame));
         Census {
@@ -225,7 +225,7 @@ impl Census {
     /// A step for each choice of roles, and an elimination for each symmetric one.
     #[must_use]
     pub fn of_hinges(subject: &Subject<'_>, grippers: bool) -> Census {
-        let mut out = Census::of_chain(subject);
+        let mut out = Census::of_choices(subject);
         for jaws in (2..=3).filter(|_| grippers) {
             let counts = out.grippers.entry(DriveKind::of_hinges(jaws)).or_default();
             let all = subject.grippers_apart(jaws);
@@ -239,8 +239,8 @@ impl Census {
     /// # Complexity
     /// A step for each choice of roles and each smaller moving part.
     #[must_use]
-    pub fn of(subject: &Subject<'_>, grippers: bool) -> Census {
-        let mut out = Census::of_chain(subject);
+    pub fn of_pairs(subject: &Subject<'_>, grippers: bool) -> Census {
+        let mut out = Census::of_choices(subject);
         for (frame, input) in subject.drives().into_iter().filter(|_| grippers) {
             for roles in subject.grippers(frame, &input, 2) {
                 let drive = DriveKind {
@@ -280,7 +280,10 @@ pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, C
 pub fn pair_census(links: usize, menu: Menu<'_>, grippers: bool) -> BTreeMap<Kinds, Census> {
     let all = Mutex::new(BTreeMap::<Kinds, Census>::new());
     visit_pair_chains(links, menu, &|subject| {
-        let (kinds, one) = (Kinds::of(subject.chain), Census::of(subject, grippers));
+        let (kinds, one) = (
+            Kinds::of_chain(subject.chain),
+            Census::of_pairs(subject, grippers),
+        );
         let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
         *all.entry(kinds).or_default() += one;
     });

@@ -86,7 +86,7 @@ impl Chain {
 
     /// The same with another joint between two links that are joined.
     #[must_use]
-    pub(crate) fn with(mut self, [u, v]: [usize; 2], pair: PairKind) -> Chain {
+    pub(crate) fn with_pair(mut self, [u, v]: [usize; 2], pair: PairKind) -> Chain {
         self.pairs.set(u, v, pair as u8);
         self
     }

@@ -45,7 +45,7 @@ fn moves(
     input: Input,
     swap: &[usize],
 ) -> Result<(), NoGripper> {
-    let chain = subject.chain.clone().with(roles.input, input.pair());
+    let chain = subject.chain.clone().with_pair(roles.input, input.pair());
     let swap = Swap {
         links: swap,
         image: symmetry,

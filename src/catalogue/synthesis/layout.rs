@@ -43,10 +43,10 @@ pub fn most_symmetric(structure: &PairStructure) -> Option<Structure> {
     let forms = [false, true].into_iter().cartesian_product(symmetric);
     let forms = forms.map(|(one_sided, symmetry)| Form {
         one_sided,
-        ..Form::of(symmetry)
+        ..Form::of_symmetry(symmetry)
     });
     let structure = PairStructure::of_key(&structure.key());
-    let mut all = forms.chain([Form::of(Symmetry::Generic)]);
+    let mut all = forms.chain([Form::of_symmetry(Symmetry::Generic)]);
     let found = all.find_map(|form| {
         let structure = structure.clone();
         let paired = Structure::new(structure, form);

@@ -25,7 +25,7 @@ pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
             Symmetry::Mirror
         }
     };
-    all.map(|g| Structure::new(g.structure, Form::of(symmetry(g.kind.half_turn))))
+    all.map(|g| Structure::new(g.structure, Form::of_symmetry(symmetry(g.kind.half_turn))))
         .collect()
 }
 
@@ -51,7 +51,12 @@ pub fn generic_structures(links: usize, jaws: usize, menu: Menu<'_>) -> Vec<Stru
             .extend(keys);
     });
     let all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let structure = |key| Structure::new(PairStructure::of_key(&key), Form::of(Symmetry::Generic));
+    let structure = |key| {
+        Structure::new(
+            PairStructure::of_key(&key),
+            Form::of_symmetry(Symmetry::Generic),
+        )
+    };
     all.into_iter().map(structure).collect()
 }
 
@@ -83,7 +88,7 @@ pub fn hinged_structures(
             continue;
         }
         for &&(input, form) in forms.iter().filter(|(_, f)| symmetric || is_generic(f)) {
-            let chain = subject.chain.clone().with(roles.input, input.pair());
+            let chain = subject.chain.clone().with_pair(roles.input, input.pair());
             let roles = roles.clone();
             let structure = Structure::new(PairStructure { chain, roles }, form);
             if !form.parallel || structure.rings().is_some() {

@@ -331,7 +331,7 @@ pub fn mechanism_file(
     workload: &Workload,
 ) -> MechanismFile {
     let drawn = DrawnJoints::new(structure, &layout.rules, &layout.at);
-    let roles = structure.whole().roles;
+    let roles = structure.whole_structure().roles;
     let task = &layout.limits.task;
     let (mut tips, mut away) = (structure.tips(task), outward(roles.jaws.len(), 1));
     if structure.sides.is_some() {

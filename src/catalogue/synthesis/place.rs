@@ -30,7 +30,7 @@ impl From<[i32; 2]> for Place {
 impl Place {
     /// Of a point in whole thousandths.
     #[must_use]
-    pub(super) fn of(point: Point) -> Place {
+    pub(super) fn of_point(point: Point) -> Place {
         #[allow(clippy::cast_possible_truncation, reason = "some metres")]
         let thousandths = point.map(|x| (x * f64::from(FINE)).round() as i64);
         let part = |whole: i64| i32::try_from(whole).unwrap_or(i32::MAX);

@@ -228,11 +228,11 @@ impl Rules {
         match self.rules[joint] {
             Rule::Image { of, times } if self.symmetry == Symmetry::Threefold => Place {
                 thirds: times,
-                ..Place::of(points[of])
+                ..Place::of_point(points[of])
             },
-            _ if self.hinges => Place::of(points[joint]),
+            _ if self.hinges => Place::of_point(points[joint]),
             // Pitch points are not whole, and stand for no joint.
-            _ => Place::of(points[joint].map(f64::round)),
+            _ => Place::of_point(points[joint].map(f64::round)),
         }
     }
 

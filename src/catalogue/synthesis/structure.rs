@@ -58,7 +58,7 @@ pub struct Form {
 impl Form {
     /// A symmetry, driven on both sides, without parallelograms.
     #[must_use]
-    pub fn of(symmetry: Symmetry) -> Form {
+    pub fn of_symmetry(symmetry: Symmetry) -> Form {
         Form {
             symmetry,
             hinges: false,
@@ -81,7 +81,7 @@ impl Form {
             let form = Form {
                 parallel,
                 hinges: true,
-                ..Form::of(symmetry)
+                ..Form::of_symmetry(symmetry)
             };
             (input, form)
         })
@@ -311,7 +311,7 @@ impl Structure {
             .structure
             .chain
             .clone()
-            .with(roles.input, PairKind::Hinge);
+            .with_pair(roles.input, PairKind::Hinge);
         let (chain, mut automorphisms) = hinges.canonical();
         if chain != hinges {
             automorphisms = hinges.automorphisms();
@@ -395,7 +395,7 @@ impl Structure {
         all.then(|| Structure {
             form: Form {
                 threaded: true,
-                ..Form::of(Symmetry::Mirror)
+                ..Form::of_symmetry(Symmetry::Mirror)
             },
             ..self.clone()
         })

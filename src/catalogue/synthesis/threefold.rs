@@ -118,7 +118,7 @@ impl Structure {
 
     /// Chain and roles with all sides.
     #[must_use]
-    pub fn whole(&self) -> PairStructure {
+    pub fn whole_structure(&self) -> PairStructure {
         let PairStructure { chain, roles } = &self.structure;
         let joints = chain.joints().into_iter();
         let joints = joints.flat_map(|j| (0..self.copies(&j)).map(move |side| (j, side)));
@@ -172,7 +172,7 @@ impl Around {
         let tip = rules.joints.len();
         made.extend((0..SIDES).map(|side| (tip, side)));
         copies.extend([SIDES, 0]);
-        let jaws = structure.whole().roles.jaws;
+        let jaws = structure.whole_structure().roles.jaws;
         let turned = |side: usize| (0..side).fold(two.tips[0], |p, _| third(p));
         let pushes = |l: usize| two.rods.iter().any(|r| structure.link(r.0, 0) == Some(l));
         let plan = BonePlan {

@@ -79,7 +79,7 @@ impl FoundData {
         } else {
             0
         };
-        let kinds = Kinds::of(chain).with_flat(flat);
+        let kinds = Kinds::of_chain(chain).with_flat(flat);
         let slides = found.structure.slides();
         let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
         let key = found.structure.part(part).key();
