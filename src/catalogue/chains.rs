@@ -1,15 +1,15 @@
 //! Kinematic chains: which links are joined to which, and by what, before anything has a place; and the grippers that their links make.
 //!
-//! A [`PairKind`] leaves one freedom (hinge, slide) or two (gear pair or rack; pin in a slot, cam, wedge), so that a planar chain of
-//! n links has the mobility W = 3(n - 1) - 2(R + P) - (G + S). Of hinges alone it has no rigid part if every part of two links
-//! or more has a mobility of at least 1. Otherwise a chain counts where in nearly all places of its joints W is 1
-//! in truth and every two links move against each other. Between hinges and pairs of two freedoms a count of every part tells
-//! that; with slides the rank decides (loops of slides alone, hinges locked by slides), see [`motion`].
-//! Chains are listed without two that differ only in numbering.
+//! A [`PairKind`] leaves one freedom (hinge, slide) or two (gear pair or rack; pin in a slot, cam, wedge). A planar chain of n links
+//! therefore has the mobility W = 3(n - 1) - 2(R + P) - (G + S). A chain of hinges only has no rigid part if every part of two links
+//! or more has a mobility of at least 1. Any other chain counts if, in nearly all places of its joints, its mobility is 1
+//! and every two links move against each other. For hinges and pairs of two freedoms, a count of every part decides
+//! this. With slides the rank decides it (loops of slides only, hinges locked by slides), see [`motion`].
+//! Of chains that differ only in numbering, one is listed.
 //!
-//! Conventions: two links have one pair at most and every link has two or more; no hinge joins three links; a gear pair needs
-//! a carrier, a link that is hinged to both gears, or to the pinion and slides on the rack. The input is a hinge or a slide,
-//! at the frame or between two moving links; a jaw is never the frame, and *driven* where it is a link of the input joint.
+//! Conventions: two links have at most one pair, and every link has two or more. No hinge joins three links. A gear pair needs
+//! a carrier: a link that is hinged to both gears, or that is hinged to the pinion and slides on the rack. The input is a hinge or a
+//! slide, at the frame or between two moving links. A jaw is never the frame; it is *driven* if it is a link of the input joint.
 
 pub mod canonical;
 pub mod census;
@@ -52,13 +52,13 @@ impl PairKind {
         (PairKind::TwoSlots, "two-slots", 'D'),
     ];
 
-    /// The word used for it.
+    /// Returns the word for the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         PairKind::ALL[self as usize - 1].1
     }
 
-    /// Its letter in codes.
+    /// Returns the letter of the kind in codes.
     #[must_use]
     pub fn letter(self) -> char {
         PairKind::ALL[self as usize - 1].2
@@ -71,20 +71,20 @@ impl PairKind {
         found.map(|kind| kind.0)
     }
 
-    /// The kind of a weight of a graph's edge, where there is an edge.
+    /// Returns the kind that the weight of an edge represents; `None` if there is no edge.
     #[must_use]
     pub(crate) fn of_weight(weight: u8) -> Option<PairKind> {
         let at = usize::from(weight).checked_sub(1)?;
         PairKind::ALL.get(at).map(|kind| kind.0)
     }
 
-    /// Whether it is a hinge or a slide, which may be driven or carry gears.
+    /// Returns whether the pair is a hinge or a slide, which may be driven or carry gears.
     #[must_use]
     pub(crate) fn is_lower(self) -> bool {
         matches!(self, PairKind::Hinge | PairKind::Slide)
     }
 
-    /// Whether it leaves two freedoms; the others leave one.
+    /// Returns whether the pair leaves two freedoms; the others leave one.
     #[must_use]
     pub(crate) fn leaves_two(self) -> bool {
         matches!(self, PairKind::Gear | PairKind::Slot)
@@ -113,14 +113,14 @@ impl Symmetry {
         (Symmetry::Threefold, "threefold"),
     ];
 
-    /// The word used for it.
+    /// Returns the word for the symmetry.
     #[must_use]
     pub fn name(self) -> &'static str {
         Symmetry::ALL[self as usize].1
     }
 
-    /// Whether the input joint may move so: a mirror image needs a slide, half a turn or a third a hinge, since in the plane no
-    /// slide is its own image then.
+    /// Returns whether the symmetry can carry the input joint to itself. A mirror image needs a slide. Half a turn and a third of a
+    /// turn need a hinge, since they carry no slide in the plane to itself.
     #[must_use]
     pub fn suits(self, input: Input) -> bool {
         match self {
@@ -130,7 +130,7 @@ impl Symmetry {
         }
     }
 
-    /// How many jaws it carries to each other, where it does.
+    /// Returns the number of jaws that the symmetry carries to each other; `None` for the generic case.
     #[must_use]
     pub fn jaws(self) -> Option<usize> {
         match self {
@@ -154,7 +154,7 @@ impl Input {
     /// Every input with its word.
     pub const ALL: [(Input, &'static str); 2] = [(Input::Slide, "slide"), (Input::Turn, "turn")];
 
-    /// The word used for it.
+    /// Returns the word for the input.
     #[must_use]
     pub fn name(self) -> &'static str {
         Input::ALL[self as usize].1

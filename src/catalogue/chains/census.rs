@@ -25,7 +25,7 @@ pub struct Kinds {
 }
 
 impl Kinds {
-    /// Of a chain.
+    /// Returns the numbers of pairs of a chain.
     #[must_use]
     pub fn of_chain(chain: &Chain) -> Kinds {
         Kinds {
@@ -36,13 +36,13 @@ impl Kinds {
         }
     }
 
-    /// Slots in all.
+    /// Returns the number of slots, two slots between the same links counted as two.
     #[must_use]
     pub fn slots_made(self) -> usize {
         self.slots + 2 * self.two_slots
     }
 
-    /// The same with so many slots made of flat faces, which are slides.
+    /// Returns the numbers when the given number of slots have flat faces, which are slides.
     #[must_use]
     pub fn with_flat(self, flat: usize) -> Kinds {
         Kinds {
@@ -53,7 +53,7 @@ impl Kinds {
     }
 }
 
-/// What grippers are counted by: essential ones alone, but for all.
+/// A property by which grippers are counted. Each but the first is counted of essential grippers only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Counted {
     /// All.
@@ -72,7 +72,7 @@ pub enum Counted {
     Translating,
     /// An automorphism keeps frame and input joint and swaps the jaws, or carries three round.
     GraphSymmetric,
-    /// They move so in places that mirror each other; of hinges alone with a sliding input.
+    /// They move symmetrically in places that mirror each other. Grippers of hinges are counted with a slide as their input.
     Mirror,
     /// The same without the demand on the input joint.
     MirrorButInput,
@@ -107,7 +107,7 @@ impl Grippers {
         self.0[of as usize] += u64::from(holds);
     }
 
-    /// Counts a gripper, and returns whether it is essential: all other counts are of essential ones.
+    /// Adds a gripper to the counts of all and of essential ones. Returns whether it is essential: other counts are of essential ones.
     fn take_essential(&mut self, subject: &Subject<'_>, roles: &Roles) -> bool {
         let essential = subject.is_essential(roles);
         self.take(Counted::All, true);
@@ -115,7 +115,7 @@ impl Grippers {
         essential
     }
 
-    /// Takes what is counted of a gripper of hinges alone, driven from the frame.
+    /// Adds a gripper that has only hinges and is driven from the frame.
     fn take_hinged(&mut self, subject: &Subject<'_>, roles: &Roles) {
         if !self.take_essential(subject, roles) {
             return;
@@ -134,7 +134,7 @@ impl Grippers {
         }
     }
 
-    /// Takes what is counted of a gripper of any pairs.
+    /// Adds a gripper of any pairs.
     fn take_paired(&mut self, subject: &Subject<'_>, roles: &Roles) {
         if !self.take_essential(subject, roles) {
             return;
@@ -149,7 +149,7 @@ impl Grippers {
     }
 }
 
-/// How many jaws there are, where the input joint is, what it is, and whether a jaw is one of its links.
+/// The way in which a gripper is driven: its number of jaws, the place and kind of its input joint, and whether a jaw is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DriveKind {
     /// Jaws.
@@ -163,7 +163,7 @@ pub struct DriveKind {
 }
 
 impl DriveKind {
-    /// From the frame, apart from so many jaws, by a hinge: grippers of hinges alone.
+    /// Returns the drive of grippers that have hinges only: a hinge at the frame, apart from the given number of jaws.
     #[must_use]
     pub fn of_hinges(jaws: usize) -> DriveKind {
         DriveKind {
@@ -182,13 +182,13 @@ pub struct Census {
     pub chains: u64,
     /// Choices of a frame.
     pub frames: u64,
-    /// Choices of an input joint, with no frame; of hinges alone.
+    /// Choices of an input joint without a frame, for chains that have hinges only.
     pub inputs: u64,
     /// Choices of a frame and an input joint at it.
     pub inputs_at_frame: u64,
     /// Choices of a frame and an input joint between two other links.
     pub inputs_between: u64,
-    /// Choices of jaws with them.
+    /// Choices of jaws with a frame and an input joint.
     pub grippers: BTreeMap<DriveKind, Grippers>,
 }
 
@@ -219,7 +219,7 @@ impl Census {
         }
     }
 
-    /// Of one chain of hinges alone: grippers of two and three jaws apart from a driver at the frame.
+    /// Returns the counts of one chain that has hinges only. Its grippers have two or three jaws, apart from a driver at the frame.
     ///
     /// # Complexity
     /// A step for each choice of roles, and an elimination for each symmetric one.
@@ -234,7 +234,7 @@ impl Census {
         out
     }
 
-    /// Of one chain with its automorphisms: grippers of two jaws.
+    /// Returns the counts of one chain of any pairs. Its grippers have two jaws.
     ///
     /// # Complexity
     /// A step for each choice of roles and each smaller moving part.
@@ -257,7 +257,7 @@ impl Census {
     }
 }
 
-/// Counts over all chains of so many hinges and this mobility; grippers are counted of chains with a mobility of 1.
+/// Returns the counts over all chains of hinges with N links and this mobility. Grippers are counted if the mobility is 1.
 ///
 /// # Errors
 /// As [`visit_chains`].
@@ -272,7 +272,7 @@ pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, C
     Ok(all.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Counts over all chains of so many links, by how many pairs of each kind they have.
+/// Returns the counts over all chains of N links, by the numbers of their pairs of each kind.
 ///
 /// # Complexity
 /// As [`visit_pair_chains`].

@@ -43,7 +43,7 @@ impl Joint {
 }
 
 impl Chain {
-    /// A chain of so many links with these joints, of which two slots may be between the same links.
+    /// Returns the chain of N links with these joints. Two slots between the same links become one joint.
     #[must_use]
     pub fn new(links: usize, joints: impl IntoIterator<Item = Joint>) -> Chain {
         let mut pairs = Weighted::new(links);
@@ -60,7 +60,7 @@ impl Chain {
         Chain { pairs }
     }
 
-    /// A chain of so many links with these hinges.
+    /// Returns the chain of N links with these hinges.
     #[must_use]
     pub fn hinged(links: usize, joints: impl IntoIterator<Item = (usize, usize)>) -> Chain {
         let pair = PairKind::Hinge;
@@ -68,7 +68,7 @@ impl Chain {
         Chain::new(links, joints.map(|links| Joint { links, pair }))
     }
 
-    /// The links of a contracted graph with its strings, each with its number of hinges and so with one binary link fewer.
+    /// Returns the chain of a contracted graph and its strings. A string of N hinges has N - 1 binary links.
     pub(super) fn of_strings(links: usize, ends: &[(usize, usize)], joints: &[u8]) -> Chain {
         let binary: usize = joints.iter().map(|&x| usize::from(x) - 1).sum();
         let mut next = links;
@@ -84,7 +84,7 @@ impl Chain {
         Chain::hinged(links + binary, all)
     }
 
-    /// The same with another joint between two links that are joined.
+    /// Returns the chain with another joint between two links that are joined.
     #[must_use]
     pub(crate) fn with_pair(mut self, [u, v]: [usize; 2], pair: PairKind) -> Chain {
         self.pairs.set(u, v, pair as u8);
@@ -125,13 +125,13 @@ impl Chain {
         self.joints().into_iter().flat_map(made).collect()
     }
 
-    /// Whether two links are joined.
+    /// Returns whether two links are joined.
     #[must_use]
     pub fn joined(&self, u: usize, v: usize) -> bool {
         self.pairs.weight(u, v) > 0
     }
 
-    /// The mobility by counting.
+    /// Returns the mobility, from the numbers of links and joints.
     #[must_use]
     pub fn mobility(&self) -> usize {
         let joints = self.joints().into_iter();
@@ -235,7 +235,7 @@ impl Chain {
         canonical(&self.pairs).automorphisms
     }
 
-    /// The chain in its canonical numbering, equal for two chains exactly where they are isomorphic, with its automorphisms.
+    /// Returns the chain in its canonical numbering, with its automorphisms. Two chains are equal then exactly if they are isomorphic.
     ///
     /// # Complexity
     /// As of [`canonical`].

@@ -57,10 +57,10 @@ pub fn code(chain: &Chain) -> String {
     write(&chain.canonical().0)
 }
 
-/// The chain of hinges of a text.
+/// Returns the chain of hinges that a text represents.
 ///
 /// # Errors
-/// Where it is not graph6, or of another size than chains have.
+/// Returns an error if the text is not graph6, or if its graph has another size than chains have.
 ///
 /// # Examples
 /// ```

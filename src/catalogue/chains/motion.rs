@@ -159,7 +159,7 @@ fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec
     relations(field, &columns).into_iter().map(links).collect()
 }
 
-/// The one motion of a chain in nearly all places, link 0 at rest; nothing where there is none or more than one.
+/// Returns the motion of a chain in nearly all places, with link 0 at rest. `None` if there is no motion, or more than one.
 ///
 /// # Complexity
 /// An elimination of 3n columns for n links.

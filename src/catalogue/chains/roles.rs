@@ -1,4 +1,4 @@
-//! What links of a chain of pairs do in a gripper: frame, input joint and jaws, each choice once up to the chain's automorphisms.
+//! Frame, input joint and jaws of a gripper: every choice among the links of a chain, once up to the chain's automorphisms.
 
 use crate::chains::chain::{Chain, Joint, carried};
 use crate::chains::motion::{Swap, Velocity, motion, symmetric_motions};
@@ -17,12 +17,12 @@ pub struct Roles {
     pub jaws: Vec<usize>,
 }
 
-/// Where an automorphism takes jaws, in order.
+/// Returns the images of jaws under an automorphism, in order of their numbers.
 fn jaws_carried(jaws: &[usize], by: &[usize]) -> Vec<usize> {
     jaws.iter().map(|&j| by[j]).sorted_unstable().collect()
 }
 
-/// Whether an automorphism carries each jaw to the next, and everything back after as many times as there are jaws.
+/// Returns whether an automorphism carries each jaw to the next, and carries every link back after as many steps as there are jaws.
 pub(crate) fn carries_round(jaws: &[usize], by: &[usize]) -> bool {
     let next = jaws.iter().cycle().skip(1);
     let back = |l: usize| jaws.iter().fold(l, |l, _| by[l]) == l;
@@ -30,7 +30,7 @@ pub(crate) fn carries_round(jaws: &[usize], by: &[usize]) -> bool {
 }
 
 impl Roles {
-    /// Where an automorphism takes them.
+    /// Returns the images of the roles under an automorphism.
     #[must_use]
     pub fn image(&self, by: &[usize]) -> Roles {
         Roles {
@@ -40,26 +40,26 @@ impl Roles {
         }
     }
 
-    /// Whether the frame is a link of the input joint.
+    /// Returns whether the frame is a link of the input joint.
     #[must_use]
     pub fn is_driven_from_frame(&self) -> bool {
         self.input.contains(&self.frame)
     }
 
-    /// The link against which the driver moves, the frame where it is one of the two, and the driver.
+    /// Returns the link against which the driver moves, then the driver. If the frame is one of the two, it comes first.
     #[must_use]
     pub fn drive(&self) -> [usize; 2] {
         let [u, v] = self.input;
         if v == self.frame { [v, u] } else { [u, v] }
     }
 
-    /// Whether a jaw is a link of the input joint.
+    /// Returns whether a jaw is a link of the input joint.
     #[must_use]
     pub fn has_driven_jaw(&self) -> bool {
         self.jaws.iter().any(|j| self.input.contains(j))
     }
 
-    /// Whether input and jaws move in a motion, the jaws also against each other.
+    /// Returns whether the input and the jaws move in a motion, and the jaws also move against each other.
     #[must_use]
     pub(crate) fn moves_in(&self, motion: &[Velocity]) -> bool {
         let apart = self.jaws.iter().chain([&self.frame]);
@@ -96,7 +96,7 @@ struct Involution<'a> {
     half_turn: Vec<Vec<Velocity>>,
 }
 
-/// A chain with what is asked of it again and again.
+/// A chain with its automorphisms, and with properties that are computed once.
 #[derive(Debug, Clone)]
 pub struct Subject<'a> {
     /// The chain.
@@ -110,7 +110,7 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// A chain to be looked at, with its automorphisms.
+    /// Returns the chain with its automorphisms, ready to be analysed.
     #[must_use]
     pub fn new(
         chain: &'a Chain,
@@ -126,8 +126,8 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Parts of mobility 1 of more than two links, without the whole: the rows of a chain are independent, and so are those
-    /// of its parts, so that counting tells.
+    /// Returns the parts of mobility 1 that have more than two links, without the whole chain. Counting is enough: the rows of a
+    /// chain are independent, and so are the rows of its parts.
     fn moving_parts(&self) -> &[usize] {
         self.moving_parts.get_or_init(|| {
             let mobilities = self.chain.mobilities();
@@ -143,20 +143,20 @@ impl<'a> Subject<'a> {
         self.automorphisms.iter().all(|a| image(x, a) >= *x)
     }
 
-    /// Frames.
+    /// Returns the number of choices of a frame.
     #[must_use]
     pub fn frames(&self) -> usize {
         let all = 0..self.chain.links();
         all.filter(|l| self.is_first(l, |&l, a| a[l])).count()
     }
 
-    /// Joints that may be driven.
+    /// Returns the joints that may be driven: hinges and slides.
     pub fn inputs(&self) -> impl Iterator<Item = &Joint> {
         let lower = self.joints.iter().filter(|j| j.pair.is_lower());
         lower.filter(|j| self.is_first(&j.links, |&links, a| carried(links, a)))
     }
 
-    /// Frames with an input joint, a hinge or a slide.
+    /// Returns the choices of a frame and an input joint, a hinge or a slide.
     #[must_use]
     pub fn drives(&self) -> Vec<(usize, Joint)> {
         let lower = self.joints.iter().filter(|j| j.pair.is_lower());
@@ -169,7 +169,7 @@ impl<'a> Subject<'a> {
         all.filter(first).map(|(j, frame)| (frame, *j)).collect()
     }
 
-    /// Every choice of so many jaws with a drive.
+    /// Returns every choice of N jaws for a frame and an input joint.
     #[must_use]
     pub fn grippers(&self, frame: usize, input: &Joint, jaws: usize) -> Vec<Roles> {
         let keeps = |a: &&&Vec<usize>| a[frame] == frame && carried(input.links, a) == input.links;
@@ -184,7 +184,7 @@ impl<'a> Subject<'a> {
             .collect()
     }
 
-    /// Grippers driven from the frame by a link that is no jaw.
+    /// Returns the grippers that are driven from the frame, by a link other than a jaw.
     pub fn grippers_apart(&self, jaws: usize) -> impl Iterator<Item = Roles> {
         let drives = self
             .drives()
@@ -195,7 +195,7 @@ impl<'a> Subject<'a> {
         all.filter(|r| !r.has_driven_jaw())
     }
 
-    /// Every choice of roles that an involution keeps: frame and input joint are their own images, the jaws change places.
+    /// Returns every choice of roles that an involution keeps: frame and input joint are their own images, and the jaws change places.
     #[must_use]
     pub(crate) fn symmetric_roles(&self, swap: &[usize]) -> Vec<Roles> {
         let n = swap.len();
@@ -213,20 +213,20 @@ impl<'a> Subject<'a> {
         roles.filter(|r| self.is_first(r, Roles::image)).collect()
     }
 
-    /// The smaller moving parts that hold all roles, as bits.
+    /// Returns the smaller moving parts that hold all roles, as bits.
     pub(super) fn moving_parts_with(&self, roles: &Roles) -> impl Iterator<Item = usize> {
         let links = roles.links();
         let parts = self.moving_parts().iter().copied();
         parts.filter(move |part| part & links == links)
     }
 
-    /// Whether no smaller moving part holds all roles.
+    /// Returns whether no smaller moving part holds all roles.
     #[must_use]
     pub fn is_essential(&self, roles: &Roles) -> bool {
         self.moving_parts_with(roles).next().is_none()
     }
 
-    /// Whether all jaws keep their attitude in nearly all places.
+    /// Returns whether all jaws keep their attitude in nearly all places.
     #[must_use]
     pub fn is_translating(&self, roles: &Roles) -> bool {
         let motion = self
@@ -239,15 +239,15 @@ impl<'a> Subject<'a> {
             .all(|&j| turning(j) == turning(roles.frame))
     }
 
-    /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
-    /// jaws.
+    /// Returns whether there is an automorphism that keeps frame and input joint and carries each jaw to the next: one of
+    /// [`Subject::swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self, roles: &Roles) -> bool {
         self.swaps(roles).next().is_some()
     }
 
-    /// The automorphisms that keep frame and input joint and carry each jaw to the next, and everything back after as many times
-    /// as there are jaws.
+    /// Returns the automorphisms that keep frame and input joint, carry each jaw to the next, and carry every link back after as many
+    /// steps as there are jaws.
     pub fn swaps<'b>(&'b self, roles: &'b Roles) -> impl Iterator<Item = &'b Vec<usize>> {
         let all = self.automorphisms.iter().copied();
         all.filter(|s| {
@@ -256,14 +256,14 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// How many jaws are joined to the frame.
+    /// Returns the number of jaws that are joined to the frame.
     #[must_use]
     pub fn jaws_at_frame(&self, roles: &Roles) -> usize {
         let joined = |&&j: &&usize| self.chain.joined(roles.frame, j);
         roles.jaws.iter().filter(joined).count()
     }
 
-    /// Whether a part hinged to both jaws makes a truss with them: nothing moves any more, and no smaller part is rigid.
+    /// Returns whether a part hinged to both jaws makes a truss with them: nothing moves any more, and no smaller part is rigid.
     #[must_use]
     pub fn is_truss(&self, roles: &Roles) -> bool {
         let &[a, b] = &roles.jaws[..] else {
@@ -273,7 +273,7 @@ impl<'a> Subject<'a> {
         !self.chain.joined(a, b) && !self.moving_parts().iter().any(both)
     }
 
-    /// How one of two jaws is symmetric; nothing carries one of three to itself so.
+    /// Returns the symmetries of a gripper of two jaws. A gripper of three jaws has none of these.
     #[must_use]
     pub fn symmetries(&self, roles: &Roles) -> Symmetries {
         let mut out = Symmetries::default();
@@ -296,7 +296,7 @@ impl<'a> Subject<'a> {
         out
     }
 
-    /// The automorphisms of order two that keep a link at least.
+    /// Returns the automorphisms of order two that keep at least one link.
     fn involutions(&self) -> &[Involution<'a>] {
         self.involutions.get_or_init(|| {
             let twice = |s: &&&Vec<usize>| {
@@ -323,7 +323,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Pairs that are not hinges, those that `swap` carries to each other as one.
+    /// Returns the number of pairs other than hinges. Pairs that `swap` carries to each other count as one.
     #[must_use]
     pub(crate) fn other_pairs_up_to(&self, swap: &[usize]) -> usize {
         let others = self.joints.iter().filter(|j| j.pair != PairKind::Hinge);

@@ -8,7 +8,7 @@ use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The graph with a path of new vertices between two of its own.
+/// Returns the graph with a path of new vertices between two existing ones.
 fn with_ear(graph: &Weighted, ends: [usize; 2], new: usize) -> Weighted {
     let n = graph.vertices();
     let mut out = graph.widened(new);
@@ -45,7 +45,7 @@ impl Level {
         }
     }
 
-    /// With one loop more.
+    /// Returns the graphs with one loop more.
     fn grown(&self) -> Level {
         let grown = |n: usize| -> BTreeSet<Weighted> {
             let smaller = self.graphs.iter().filter(|(m, _)| **m <= n);
@@ -65,8 +65,8 @@ impl Level {
     }
 }
 
-/// Every simple graph with so many vertices that hangs together without any one of them, by its number of edges up to a
-/// greatest, in canonical numbering and with its automorphisms.
+/// Returns every simple biconnected graph with N vertices, by its number of edges up to a maximum. Such a graph stays connected
+/// without any one of its vertices. Each graph is in canonical numbering and has its automorphisms.
 ///
 /// # Complexity
 /// One canonical numbering for each two vertices of each smaller graph.
@@ -84,11 +84,10 @@ fn biconnected_graphs(vertices: usize, most_edges: usize) -> Vec<Canonical> {
     out
 }
 
-/// Calls `visit` with every chain of so many links and with its automorphisms; in no particular order and from several
-/// threads.
+/// Calls `visit` with every chain of N links and with its automorphisms, in no particular order and from several threads.
 ///
 /// # Complexity
-/// Some ten microseconds a way to share the kinds out over a graph, where there are slides; one otherwise.
+/// With slides, some ten microseconds for each way to share the kinds out over a graph. Without slides, one microsecond.
 pub fn visit_pair_chains(links: usize, menu: Menu<'_>, visit: &(impl Fn(&Subject<'_>) + Sync)) {
     if !(3..=MOST_LINKS).contains(&links) {
         return;
