@@ -150,7 +150,7 @@ fn friction_shared_by_the_jaws_is_told_from_harm() {
     }
 }
 
-/// What is listed is `catalogs/list.csv`. Where this fails, mend the lines of it that differ.
+/// What is listed is `catalogs/list.csv`. If this fails, correct the lines of it that differ.
 #[test]
 fn the_list_has_the_figures_of_the_files() {
     let listed = json(&["list", "--format", "json"]);

@@ -46,7 +46,7 @@ use ozols::{Request, analyze};
 use std::collections::BTreeMap;
 use std::ops::Deref;
 
-/// A layout of hinges alone as pins at exact places.
+/// A layout with only hinges, as pins at exact places.
 struct Drawn {
     pins: Vec<(usize, usize)>,
     at: Vec<Place>,

@@ -49,7 +49,7 @@ impl CountRow {
     }
 }
 
-/// What is counted of hinges alone: keys, and what they are called; of chains, of grippers with two jaws and of those with three.
+/// The counts of chains of hinges, each a key and its name: those of chains, of grippers with two jaws, and of grippers with three.
 const OF_HINGES: &str = "\
 chains: chains
 frames: with a frame
@@ -86,12 +86,12 @@ const THREE_JAWS: [Counted; 4] = [
     Counted::Threefold,
 ];
 
-/// Keys with what they are called.
+/// Returns the keys of counts with their names.
 fn named(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     text.lines().filter_map(|line| line.split_once(": "))
 }
 
-/// Of one number of hinges; of the chains alone where there is no census.
+/// Returns the row of one number of links. Without a census, it has only the number of chains.
 #[must_use]
 pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Census>) -> CountRow {
     let of = |count: fn(&Census) -> u64| census.map(count);
@@ -123,7 +123,7 @@ Mirror, half turn, threefold: in places so symmetric, otherwise generic (drawn a
 and jaws move, and the jaws against each other.
 ";
 
-/// As a table: a column for each number of links, without rows that nothing was counted for.
+/// Returns a table with a column for each number of links, without rows that have no counts.
 #[must_use]
 pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     let links = all.iter().filter_map(|row| row.number("links"));
@@ -159,7 +159,7 @@ pub struct ChainData {
 }
 
 impl ChainData {
-    /// Of a chain in canonical numbering.
+    /// Returns the data of a chain in canonical numbering.
     #[must_use]
     pub fn new(chain: &Chain) -> ChainData {
         let degrees = (0..chain.links())
@@ -184,7 +184,7 @@ impl ChainData {
     }
 }
 
-/// A table of chains.
+/// Returns a table of chains.
 #[must_use]
 pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
     let heads = [
@@ -213,16 +213,16 @@ pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
 
 /// The four places of an input and the jaws, in the order of columns: at the frame or between, apart or driven.
 const PLACES: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
-/// What is counted of grippers of pairs: keys, and what they are called.
+/// The counts of grippers of pairs, each a key and its name.
 const OF_PAIRS: &str = "\
 two_jaws: all
 essential: essential
 translating:   both jaws only translate
 graph_symmetric:   graph symmetric
 mirror:   mirror
-mirror_but_input:   mirror but for the input
+mirror_but_input:   mirror except for the input
 half_turn:   half turn
-half_turn_but_input:   half turn but for the input";
+half_turn_but_input:   half turn except for the input";
 const PAIRED: [Counted; 8] = [
     Counted::All,
     Counted::Essential,
@@ -238,7 +238,7 @@ fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
     if holds { yes } else { no }
 }
 
-/// Of one number of links, by kinds of pairs and drive. What is told of chains is the same in each row of one number of links and kinds.
+/// Returns the rows of one number of links, one for each choice of kinds and drive. The counts of chains are repeated for each drive.
 #[must_use]
 pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
     let drives = PLACES.into_iter().cartesian_product([false, true]);
@@ -287,12 +287,12 @@ const PAIR_LEGEND: &str = "\
 All up to isomorphism; hinges, slides and two slots between the same links leave one freedom, gear pairs (racks, too) and slots (pins in slots, cams, wedges) two.
 A chain has one motion in nearly all places, in which every two links move; a gear pair has a carrier.
 Columns: the input, a hinge or a slide, is at the frame or between two moving links; a jaw is one of its links (driven), or apart from it.
-Essential: no smaller moving part holds frame, input joint and jaws; what stands below counts these alone.
+Essential: no smaller moving part holds frame, input joint and jaws; the rows below it count only these.
 Only translate: both jaws keep their attitude in nearly all places. Graph symmetric: swapping the jaws changes nothing, frame
 and input joint in place. Mirror, half turn: they move so in places so symmetric, otherwise generic (drawn at random modulo a prime).
 ";
 
-/// Counts of each number of links as a paragraph and a table.
+/// Returns the counts of each number of links as a paragraph and a table.
 #[must_use]
 pub fn pair_text(all: &[(usize, BTreeMap<Kinds, Census>)], width: Option<u16>) -> String {
     let mut out = String::new();
@@ -355,7 +355,7 @@ pub struct SymmetricCountsData {
     essential: u64,
 }
 
-/// The rows of counts of one number of links, those that are nothing, too.
+/// Returns the rows of one number of links, including those whose count is zero.
 #[must_use]
 pub fn symmetric_rows(
     links: usize,
@@ -381,11 +381,11 @@ pub fn symmetric_rows(
 }
 
 const SYMMETRIC_LEGEND: &str = "\
-Essential grippers of two jaws whose input joint is its own image, up to isomorphism, by their pairs that are no hinges: a left
+Essential grippers of two jaws whose input joint is its own image, up to isomorphism, by their pairs other than hinges: a left
 and a right one are one choice. Driven: a jaw is a link of the input joint.
 ";
 
-/// A table with a row for each symmetry and number of choices, a column for each number of links.
+/// Returns a table with a row for each symmetry and number of choices, and a column for each number of links.
 #[must_use]
 pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String {
     let links = all.iter().map(|c| c.links).unique().collect_vec();

@@ -207,7 +207,7 @@ fn motion(d: &FoundData) -> String {
     };
     let flag = |strict: Option<bool>, but: Option<bool>, word: &str| match (strict, but) {
         (Some(true), _) => Some(word.to_owned()),
-        (_, Some(true)) => Some(format!("{word} but for the input")),
+        (_, Some(true)) => Some(format!("{word} except for the input")),
         _ => None,
     };
     let symmetric = [
@@ -230,14 +230,14 @@ fn motion(d: &FoundData) -> String {
 /// Neighbours that the text names; JSON has all.
 const NAMED: usize = 8;
 
-/// A line for each of the first; nothing where there are none.
+/// Returns a line for each of the first neighbours; an empty text if none is better.
 fn neighbours_text(all: &[Neighbour]) -> String {
     let useful = all.iter().filter(|n| !n.better.is_empty()).collect_vec();
     if useful.is_empty() {
         return String::new();
     }
     let mut out = String::from(
-        "Next to it in the catalogue, and what that does better than each of its own layouts:\n",
+        "Next to it in the catalogue, and what these do better than each of its layouts:\n",
     );
     for n in useful.iter().take(NAMED) {
         let relation = match n.relation {
