@@ -30,20 +30,20 @@ pub enum BuildError {
     Row(#[from] RowError),
 }
 
-/// What is to be built, by what structures have in common.
+/// The structures to be built. Structures that share one search are in one group.
 #[derive(Debug)]
 pub struct Work {
     structures: Vec<(Option<InputPair>, Vec<Structure>)>,
 }
 
 impl Work {
-    /// Number of structures.
+    /// Returns the number of structures.
     #[must_use]
     pub fn count(&self) -> usize {
         self.structures.iter().map(|(_, all)| all.len()).sum()
     }
 
-    /// Their ids.
+    /// Returns the ids of the structures.
     pub fn ids(&self) -> impl Iterator<Item = String> + '_ {
         let all = self.structures.iter().flat_map(|(_, all)| all);
         all.map(Structure::id)
@@ -73,7 +73,7 @@ pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     })
 }
 
-/// The well-known schemes, and what has three jaws of them.
+/// Returns the well-known schemes, or for three jaws the grippers that are made of them.
 fn known(spec: &Spec) -> Vec<Structure> {
     let all = known_schemes().into_iter();
     match spec.jaws {
@@ -96,7 +96,7 @@ fn paired_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     let all = all.flat_map(Structure::with_parallelograms);
     let all = all.filter(|p| forms.contains(&(p.input(), p.form)));
     let asked = all.flat_map(|p| of_pairs.made(p));
-    // What is all hinges but for the input is there already.
+    // Structures that have only hinges except for the input are listed by `hinged_work`.
     Ok(asked
         .filter(|p| p.form.one_pin != 0 || !p.is_hinged())
         .collect())
@@ -106,11 +106,11 @@ fn paired_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
 struct Pairs {
     kinds: Vec<PairKind>,
     most: usize,
-    /// Whether no pairs are asked for but a drive that slides.
+    /// Whether no pairs are asked for except a drive that slides.
     hinged: bool,
-    /// Whether hinges on one pin are asked for, where one of both is.
+    /// Whether only structures with hinges on one pin are built, or only those without; `None` if both are.
     one_pin: Option<bool>,
-    /// The same of flat faces.
+    /// Whether only structures with flat faces are built, or only those without; `None` if both are.
     flat_faces: Option<bool>,
 }
 
@@ -130,7 +130,7 @@ impl Pairs {
         })
     }
 
-    /// A structure in the ways it is to be made.
+    /// Returns a structure in the ways in which it is to be made.
     fn made(&self, p: Structure) -> impl Iterator<Item = Structure> {
         let (one_pin, flat_faces) = (self.one_pin, self.flat_faces);
         let pins = (one_pin != Some(false)).then(|| p.clone().with_one_pins());
@@ -146,7 +146,7 @@ impl Pairs {
         })
     }
 
-    /// The structures of so many links and jaws laid out without a symmetry.
+    /// Returns the structures of the given numbers of links and jaws, laid out without a symmetry.
     fn generic(
         &self,
         links: RangeInclusive<usize>,
@@ -156,7 +156,7 @@ impl Pairs {
         links.flat_map(move |n| generic_structures(n, jaws, Menu { kinds, most }))
     }
 
-    /// The symmetric structures of two jaws of so many links.
+    /// Returns the symmetric structures of two jaws that have the given numbers of links.
     fn two_jawed(&self, links: RangeInclusive<usize>) -> impl Iterator<Item = Structure> {
         let (kinds, most) = (&self.kinds, self.most);
         let all = links.flat_map(move |n| symmetric_structures(n, Menu { kinds, most }));
@@ -164,7 +164,7 @@ impl Pairs {
     }
 }
 
-/// Those of three jaws that have as many links as is asked.
+/// Returns the structures of three jaws that have the numbers of links asked for and are made of structures of two jaws.
 fn threefold_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     let forms = spec.threefold_forms().map_err(RowError::from)?;
     if forms.is_empty() {

@@ -27,7 +27,7 @@ use num_bigint::BigUint;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Pairs of random places that are looked at until both have the same variants: nearly always the first do.
+/// The maximum number of pairs of random places that are tried until both places have the same variants. Nearly always the first do.
 const PAIRS_OF_PLACES: usize = 4;
 
 /// A chain and an input, of which all layouts in general position have the same determinate variants.
@@ -47,7 +47,7 @@ pub struct General {
     pub counts: BTreeMap<(i64, u32), BigUint>,
 }
 
-/// What tells the structures of hinges apart whose layouts in general position have their determinate variants in common.
+/// A chain of hinges and its input. Layouts of structures with the same pair have the same determinate variants in general position.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct InputPair {
     /// The chain, with a slide where the driver slides.
@@ -57,7 +57,7 @@ pub struct InputPair {
 }
 
 impl InputPair {
-    /// The pair of a structure; `None` where its layouts are special on purpose, or it is not of hinges alone.
+    /// Returns the pair of a structure. `None` if its layouts are special on purpose, or if it has other pairs than hinges.
     #[must_use]
     pub fn of_structure(structure: &Structure) -> Option<InputPair> {
         let form = structure.form;

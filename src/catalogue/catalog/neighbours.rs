@@ -55,18 +55,18 @@ type Figures = [Option<f64>; FIGURES.len()];
 /// How structures are next to each other, from the nearest on.
 const RELATIONS: [&str; 3] = ["other-roles", "fewer-links", "more-links"];
 
-/// A structure beside a given one.
+/// A structure next to a given one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Neighbour {
     /// Its id.
     pub id: String,
     /// How it is laid out.
     pub form: String,
-    /// How it is next to it: other roles of the same chain, or what is left without links of the one or of the other.
+    /// How it is next to the given one: other roles of the same chain, or the structure that is left when one of both loses links.
     pub relation: &'static str,
     /// By how many links.
     pub links: usize,
-    /// What its layout does better than each of the given one's; all figures where that has none.
+    /// The figures in which its layout is better than each layout of the given one. If that one has no layout, all figures.
     pub better: Vec<BetterFigure>,
 }
 
@@ -75,7 +75,7 @@ pub struct Neighbour {
 pub struct BetterFigure {
     /// Its column.
     pub figure: &'static str,
-    /// What it is.
+    /// Its value.
     pub value: f64,
     /// The best of the given structure.
     pub own: Option<f64>,
@@ -89,9 +89,11 @@ const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.pa
 /// Where the figures of a row begin.
 const FIRST_FIGURE: usize = 11;
 
-/// What of a catalogue is next to a structure, with as many jaws: the same chain with other roles, and what two links less or more, or four, make of
-/// it, taken out two and two in a row (`without_two_links`); four only where a layout is symmetric, whose two halves
-/// lose two links each.
+/// Returns the structures of a catalogue that are next to a structure and have as many jaws.
+///
+/// Structures of the same chain with other roles are next to it. So are structures with two or four links less or more, if one of
+/// both is left when the other loses pairs of links in a row (`without_two_links`). Four links count only for symmetric layouts.
+/// Each half loses two links then.
 ///
 /// # Errors
 /// Those of the database.
@@ -172,7 +174,7 @@ impl Figure {
     }
 }
 
-/// A structure, and what is left of it without two links and without four.
+/// A structure, and the keys of what is left of it without two links and without four.
 struct Own {
     links: usize,
     chain: Chain,
@@ -190,7 +192,7 @@ impl Own {
         }
     }
 
-    /// How another structure, with its key, stands to it.
+    /// Returns how another structure, with its key, is next to it: the place of the relation in the list, and by how many links.
     fn relation(
         &self,
         other: &PairStructure,

@@ -184,7 +184,7 @@ pub fn row_of_pair(
     })
 }
 
-/// Seeds under which places are looked for until their pose is proven to be a regular one, at most: it is nearly always so at once.
+/// The maximum number of seeds that are tried until the pose of a layout is proven to be regular. Nearly always the first is enough.
 const SEEDS: u64 = 6;
 
 /// The first layout of some seeds whose pose is proven to be a regular one; what keeps it from being laid out otherwise.

@@ -181,10 +181,10 @@ impl Spec {
         kinds.collect()
     }
 
-    /// The forms that structures with pairs are laid out in, of those that are asked for.
+    /// Returns those of the forms asked for in which structures with pairs are laid out.
     ///
     /// # Errors
-    /// Where a word means nothing.
+    /// Returns an error if a word means nothing.
     pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
         if self.pairs()?.is_empty() && self.one_pin()? == Some(false) {
             return Ok(Vec::new());
@@ -258,10 +258,10 @@ impl Spec {
         Ok((inputs, symmetries.try_collect()?))
     }
 
-    /// The forms that structures of hinges alone are laid out in, with how they are driven.
+    /// Returns the forms in which structures that have only hinges are laid out, each with its input.
     ///
     /// # Errors
-    /// Where a word means nothing, or no form is left.
+    /// Returns an error if a word means nothing, or if no form is left.
     pub fn forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
         let (inputs, symmetries) = self.words()?;
         let parallel = self.parallelograms()?;

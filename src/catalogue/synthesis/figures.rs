@@ -72,7 +72,7 @@ pub struct LayoutFigures {
     pub shortfall: Option<Shortfall>,
 }
 
-/// Figures of a laid-out gripper; `None` where it is drawn in a singular pose. Sides of three are as one of two.
+/// Returns the figures of a laid-out gripper; `None` if it is drawn in a singular pose. Each of three sides has the figures of one of two.
 ///
 /// # Complexity
 /// Some dozen poses, each of O(n³) for n links.

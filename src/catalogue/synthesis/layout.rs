@@ -1,5 +1,5 @@
-//! A place for every joint of a structure, looked for from seeds that follow from its name. Moves go to whole millimetres, so that what is
-//! found is exact as it stands. Well-known schemes have the forms that they are laid out in.
+//! Layouts: a place for every joint of a structure, searched from seeds that follow from its name. Moves go to whole millimetres, so that
+//! the places found are exact. Well-known schemes are laid out in their most symmetric forms.
 
 use crate::chains::Symmetry;
 use crate::chains::classics::{Classic, classics};
@@ -18,7 +18,7 @@ use crate::synthesis::threefold::SIDES;
 use itertools::Itertools;
 use thiserror::Error;
 
-/// The well-known schemes that are structures, each once.
+/// Returns the well-known schemes as structures. Schemes with the same structure that are made in the same way are listed once.
 #[must_use]
 pub(crate) fn known_schemes() -> Vec<Structure> {
     let all = classics().iter();
@@ -33,7 +33,7 @@ pub(crate) fn known_schemes() -> Vec<Structure> {
     all.filter_map(made).collect()
 }
 
-/// A structure in the most symmetric form in which it lies somewhere; `None` where it does so in none.
+/// Returns a structure in the most symmetric form that it can have; `None` if it can have no form.
 ///
 /// # Complexity
 /// As [`Structure::lays`], for each form.
@@ -73,7 +73,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The places of the joints as what they are exactly.
+    /// Returns the exact places of the joints.
     #[must_use]
     pub fn places(&self) -> Vec<Place> {
         let joints = 0..self.rules.joints.len();
@@ -125,14 +125,16 @@ impl NoLayout {
     }
 }
 
-/// Lays a structure out; the same for the same seed. Sides of three are laid out as those of two, but that in one plane the others
-/// are in the way; in planes of their own there is nothing of theirs on the other side of the driver.
+/// Lays a structure out; the layout is the same for the same seed.
+///
+/// A structure with three sides is laid out as one with two. If all sides are in one plane, the other sides are obstacles. Otherwise the
+/// pins of each side keep to its side of the driver.
 ///
 /// # Errors
-/// Why there is none.
+/// Returns an error if there is no layout.
 ///
 /// # Complexity
-/// Some thousand looks at places, of which some hundred are at a whole stroke, for each of the ways it may lie on itself.
+/// Some thousand looks at places for each way to lay it out. Some hundred of these look at a whole stroke.
 pub fn layout(structure: &Structure, limits: &Limits, seed: u64) -> Result<Layout, NoLayout> {
     let mut best: Option<(FoundPlaces, Rules)> = None;
     let mut why = NoLayout::Pairs(NoRules::Still);

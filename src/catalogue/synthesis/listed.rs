@@ -11,7 +11,7 @@ use itertools::Itertools;
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
-/// The symmetric structures of so many links that have such pairs.
+/// Returns the symmetric structures of N links that have pairs of these kinds.
 ///
 /// # Complexity
 /// As [`symmetric_grippers`].
@@ -29,7 +29,7 @@ pub fn symmetric_structures(links: usize, menu: Menu<'_>) -> Vec<Structure> {
         .collect()
 }
 
-/// Every essential structure of so many links and jaws that has such pairs, laid out without a symmetry.
+/// Returns every essential structure of the given numbers of links and jaws that has pairs of these kinds, laid out without a symmetry.
 ///
 /// # Complexity
 /// As [`visit_pair_chains`], and a canonical numbering for each.
@@ -60,8 +60,9 @@ pub fn generic_structures(links: usize, jaws: usize, menu: Menu<'_>) -> Vec<Stru
     all.into_iter().map(structure).collect()
 }
 
-/// The essential grippers of hinges alone of so many jaws of a chain that a form can be asked of: for a symmetric one those whose
-/// graph is symmetric, for a parallel one those whose jaws stand on rings of four links with the frame or a sliding driver.
+/// Returns the essential grippers that a chain of hinges makes with N jaws, in each of the forms that they can have. A gripper can have
+/// a symmetric form if its graph is symmetric. It can have a parallel form if each jaw is on a ring of four links, with the frame or with
+/// a sliding driver.
 ///
 /// # Complexity
 /// A step for each choice of roles and each form.

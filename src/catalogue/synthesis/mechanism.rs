@@ -1,5 +1,5 @@
 //! A layout as a mechanism file: hinges square to the plane, guides and slots in it, gears as couplings, the driver's joint, the outputs, and
-//! a workload. What stands on one side of three stands on the others after thirds of a turn.
+//! a workload. If there are three sides, links and joints of one side are repeated on the others after thirds of a turn.
 
 use crate::chains::{PairKind, Symmetry};
 use crate::file::schema::{
@@ -20,8 +20,8 @@ use crate::synthesis::threefold::SIDES;
 use crate::synthesis::workload::{HeldPart, Workload};
 use itertools::Itertools;
 
-/// What each link is called: frame, the jaws, slider or crank, of a cylinder between two links cylinder and piston, and the rest by
-/// their numbers.
+/// Returns the names of the links: frame, the jaws, slider or crank, cylinder and piston if they are between moving links, and the
+/// others by their numbers.
 #[must_use]
 fn link_names(structure: &Structure) -> Vec<String> {
     let roles = &structure.structure.roles;
@@ -41,7 +41,7 @@ fn link_names(structure: &Structure) -> Vec<String> {
     (0..structure.structure.chain.links()).map(of).collect()
 }
 
-/// Says that places are exact where they have decimals, which would be taken for rounded.
+/// Returns an entry which says that places are exact, if they have decimals: decimals are treated as rounded otherwise.
 fn exact(at: &[Place]) -> Option<ToleranceEntry> {
     let fine = at.iter().any(|p| p.fine != [0; 2]);
     fine.then_some(ToleranceEntry {
@@ -84,18 +84,18 @@ impl<'a> DrawnJoints<'a> {
         }
     }
 
-    /// Whether teeth are there that are no joint: a thread is one.
+    /// Returns whether a joint has teeth that are a coupling. A thread is a joint of the file.
     fn is_geared(&self, joint: usize) -> bool {
         self.rules.joints[joint].pair == PairKind::Gear && !self.rules.threaded
     }
 
-    /// Every joint on every side on which it stands.
+    /// Returns every joint on every side that has it.
     fn each(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let joints = self.rules.joints.iter().enumerate();
         joints.flat_map(|(i, j)| (0..self.structure.copies(j)).map(move |side| (i, side)))
     }
 
-    /// Those that are joints of the file.
+    /// Returns the joints of the file, each with its side.
     fn made(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.each().filter(|(i, _)| !self.is_geared(*i))
     }
@@ -112,7 +112,7 @@ impl<'a> DrawnJoints<'a> {
         link.map_or("", |l| &self.names[l])
     }
 
-    /// What a joint is called.
+    /// Returns the name of a joint.
     fn name(&self, joint: usize, side: usize) -> String {
         let links = self.rules.joints[joint].links;
         let second = self.rules.joints[..joint].iter().any(|j| j.links == links);
@@ -181,7 +181,7 @@ impl<'a> DrawnJoints<'a> {
         }
     }
 
-    /// What a hinge may be after thirds of a turn; one that holds a gear is no ball.
+    /// Returns the options of a hinge after thirds of a turn. A hinge that holds a gear cannot be a ball.
     fn options_at(&self, joint: usize, thirds: u8, menu: &Menu) -> Vec<OptionEntry> {
         let mut meshes = self.rules.meshes.iter().flatten();
         let held = meshes.any(|m| m.held.contains(&joint));
@@ -189,7 +189,7 @@ impl<'a> DrawnJoints<'a> {
         options_turned(&options.cloned().collect_vec(), self.pivot, thirds)
     }
 
-    /// Of a joint of a screw the lead along y, of its own hinge nothing; `None` of other joints.
+    /// Returns the lead along y for a joint of a screw and a nut, and `Some(None)` for the hinge of the screw; `None` for other joints.
     fn thread(&self, i: usize) -> Option<Option<i64>> {
         if !self.structure.form.threaded {
             return None;
@@ -208,8 +208,8 @@ impl<'a> DrawnJoints<'a> {
         lead.map(Some).or(own.then_some(None))
     }
 
-    /// The links of a joint as a file has them: the drive's second is the driver; the pin of a slot is on the first, the block of a slide
-    /// on the second.
+    /// Returns the links of a joint in the order of the file. The second link of the drive is the driver. The first link of a slot has
+    /// the pin. The second link of a slide has the block.
     fn ends(&self, i: usize) -> [usize; 2] {
         let joint = &self.rules.joints[i];
         let [u, v] = joint.links;
@@ -243,7 +243,7 @@ impl<'a> DrawnJoints<'a> {
         })
     }
 
-    /// The points of a link in space: its joints, and of a jaw its tip.
+    /// Returns the points of a link in space: its joints, and its tip if it is a jaw.
     fn points(&self, link: usize, jaws: &[usize], tips: &[Place]) -> Vec<Vector> {
         let of = |&(i, side): &(usize, usize)| {
             let ends = self.rules.joints[i]
@@ -257,7 +257,7 @@ impl<'a> DrawnJoints<'a> {
         all.map(|p| self.pivot.real(p)).collect()
     }
 
-    /// What a search may do to the hinges, and which joints it changes alike.
+    /// Returns the options of the hinges for a search, and the joints that it changes together.
     fn search(&self, menu: &Menu) -> SearchEntry {
         let joints = self.rules.joints.iter();
         let mut hinges = joints.filter(|j| j.pair == PairKind::Hinge);
@@ -293,7 +293,7 @@ impl<'a> DrawnJoints<'a> {
     }
 }
 
-/// A structure of hinges alone with its pins at some places, for questions about its joints alone: nothing acts on it.
+/// Returns the file of a structure that has only hinges, with its pins at some places and without a workload.
 #[must_use]
 pub(crate) fn bare_file(
     structure: &Structure,
@@ -322,7 +322,7 @@ pub(crate) fn bare_file(
     }
 }
 
-/// The entries of the file.
+/// Returns the file of a layout.
 #[must_use]
 pub fn mechanism_file(
     structure: &Structure,

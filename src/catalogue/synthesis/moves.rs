@@ -1,4 +1,4 @@
-//! Places of a paired structure to begin with, others beside them, and what they cost.
+//! Places of a structure to begin with, other places next to them, and the motion that they give.
 
 use crate::chains::PairKind;
 use crate::geom::vector::{length, sub};
@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 
 /// A layout that costs less than this is taken without looking for a better one.
 const GOOD: f64 = 1.0;
-/// The same of hinges alone.
+/// The same bound for structures that have only hinges.
 const GOOD_HINGES: f64 = 3.0;
 /// Pitch radii of two gears, in a ratio.
 const RATIOS: [[i32; 2]; 9] = [
@@ -90,7 +90,7 @@ impl Sketch<'_> {
         };
     }
 
-    /// The link that has the pin or the block of a joint; none of what has no point on its links.
+    /// Returns the link that has the pin or the block of a joint; `None` for a joint that has no point on its links.
     pub(super) fn link_of(&self, at: &Places, joint: usize) -> Option<usize> {
         match self.rules.joints[joint].pair {
             PairKind::Slot => Some(at.pinned[joint]),
@@ -122,7 +122,7 @@ impl Sketch<'_> {
         }
     }
 
-    /// Places that cost less are taken without looking for better ones.
+    /// Returns the cost below which places are taken without a search for better ones.
     pub(super) fn good(&self) -> f64 {
         if self.structure.form.hinges {
             GOOD_HINGES
@@ -131,7 +131,7 @@ impl Sketch<'_> {
         }
     }
 
-    /// All points that are drawn, and whose they are.
+    /// Returns all points that are drawn, and the bones that they belong to.
     pub(super) fn drawn<'p>(&'p self, at: &'p Places) -> (Cow<'p, [Point]>, &'p Bones) {
         match &self.around {
             None => (Cow::Borrowed(&at.points), &self.bones),
@@ -139,7 +139,7 @@ impl Sketch<'_> {
         }
     }
 
-    /// Places to begin with.
+    /// Returns places to begin with.
     #[must_use]
     pub fn first_places(&self, random: &mut ChaCha8Rng) -> Places {
         let joints: Vec<[usize; 2]> = self.rules.joints.iter().map(|j| j.links).collect();
@@ -166,7 +166,7 @@ impl Sketch<'_> {
         at
     }
 
-    /// Other places, by how warm the search still is: 1 at first, 0 at its end.
+    /// Moves places at random, by how warm the search still is: 1 at first, 0 at its end.
     pub(super) fn change(&self, at: &mut Places, warmth: f64, random: &mut ChaCha8Rng) {
         let movable = self.rules.movable().count();
         let Some(joint) = self.rules.movable().nth(below(movable.max(1), random)) else {
@@ -203,7 +203,7 @@ impl Sketch<'_> {
         self.rules.settle(at);
     }
 
-    /// How the links move for a unit speed of the driver; `None` where the pose is singular.
+    /// Returns how the links move for a unit speed of the driver; `None` if the pose is singular.
     ///
     /// # Complexity
     /// O(n³) for n links.

@@ -1,18 +1,18 @@
-//! What may stand in the place of a joint: of a hinge by the menu, of slides, slots and nuts always the same.
+//! Options of joints: joint types that may replace a joint. The menu has those of hinges. Those of slides, slots and nuts are fixed.
 
 use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
 use crate::synthesis::place::Pivot;
 
-/// What a search may do to the hinges.
+/// The changes that a search may make to hinges.
 #[derive(Debug, Clone, Default)]
 pub struct Menu {
-    /// What each may be, the hinge itself first.
+    /// The types that may replace each hinge, the hinge itself first.
     pub options: Vec<OptionEntry>,
-    /// What may be put in series with each, by a link more; with the input joint nothing is.
+    /// The joints that may be put in series with each hinge, with one more link. The input joint gets none.
     pub unloading: Vec<OptionEntry>,
 }
 
-/// A direction of whole numbers after so many thirds of a turn.
+/// Returns a direction of whole numbers after N thirds of a turn.
 pub(super) fn direction_turned(
     direction: &[Coordinate; 3],
     pivot: Pivot,
@@ -30,7 +30,7 @@ pub(super) fn direction_turned(
     pivot.turned([x, y, z].map(|a| *a as f64), thirds)
 }
 
-/// Options after so many thirds of a turn: their directions go with it.
+/// Returns options after N thirds of a turn, with their directions turned.
 pub(super) fn options_turned(
     options: &[OptionEntry],
     pivot: Pivot,
@@ -46,7 +46,7 @@ pub(super) fn options_turned(
     out
 }
 
-/// Whether an option turns about any axis.
+/// Returns whether an option turns about any axis.
 pub(super) fn is_ball(option: &OptionEntry) -> bool {
     let balls = ["spherical", "sphere-in-cylinder"];
     matches!(option, OptionEntry::Word(word) if balls.contains(&word.as_str()))
@@ -69,7 +69,7 @@ fn word(kind: &str) -> OptionEntry {
     OptionEntry::Word(kind.to_owned())
 }
 
-/// What may be in place of a guide: z along it, x square to the plane of motion.
+/// Returns the types that may replace a guide: z is along it, x is square to the plane of motion.
 pub(super) fn slides() -> Vec<OptionEntry> {
     vec![
         word("prismatic"),
@@ -80,7 +80,7 @@ pub(super) fn slides() -> Vec<OptionEntry> {
     ]
 }
 
-/// What may be in place of flat faces: z along them, x square to the plane of motion.
+/// Returns the types that may replace flat faces: z is along them, x is square to the plane of motion.
 pub(super) fn faces() -> Vec<OptionEntry> {
     let of_slots = vec![
         named("pin-in-slot", &["tz", "rx"]),
@@ -91,7 +91,7 @@ pub(super) fn faces() -> Vec<OptionEntry> {
     slides().into_iter().chain(of_slots).collect()
 }
 
-/// What may be in place of a pin in a slot: z along the pin, x along the slot.
+/// Returns the types that may replace a pin in a slot: z is along the pin, x is along the slot.
 pub(super) fn slots() -> Vec<OptionEntry> {
     vec![
         word("slotted"),
@@ -101,7 +101,7 @@ pub(super) fn slots() -> Vec<OptionEntry> {
     ]
 }
 
-/// What may be in place of a nut: z along the screw.
+/// Returns the types that may replace a nut: z is along the screw.
 pub(super) fn nuts(lead: i64) -> Vec<OptionEntry> {
     let nut = |name, freedoms: &[&str]| with_lead(Some(lead), name, freedoms);
     vec![

@@ -28,7 +28,7 @@ impl From<[i32; 2]> for Place {
 }
 
 impl Place {
-    /// Of a point in whole thousandths.
+    /// Returns the place of a point, rounded to thousandths of a millimetre.
     #[must_use]
     pub(super) fn of_point(point: Point) -> Place {
         #[allow(clippy::cast_possible_truncation, reason = "some metres")]

@@ -1,5 +1,5 @@
-//! Where the joints of a gripper are: points are whole millimetres, directions have whole lengths (3, 4 and 5), radii are whole, so that
-//! layouts are exact as they stand.
+//! Places of the joints of a gripper. Points are whole millimetres, directions have whole lengths (3, 4 and 5), and radii are whole, so
+//! that layouts are exact.
 
 use crate::geom::vector::{add_scaled, quarter, sub};
 use crate::synthesis::direction::WholeDirection;
@@ -21,7 +21,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// Of hinges, and of a slide along the x axis.
+    /// Returns the places of hinges, and of a slide along the x axis.
     #[must_use]
     pub fn of_hinges(points: Vec<Point>) -> Places {
         let all = points.len();

@@ -10,20 +10,20 @@ use crate::synthesis::structure::{Lay, Structure};
 use itertools::Itertools;
 use thiserror::Error;
 
-/// Where a joint is.
+/// The rule for the place of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
-    /// Where it likes.
+    /// The place is free.
     Free,
     /// It is its own image; a slide or a slot on a mirror line then has this direction.
     Own(Option<WholeDirection>),
-    /// On the middle: on one pin with its image, or a slide of one of hinges alone.
+    /// On the middle: a joint on one pin with its image, or the slide of a structure whose other joints are hinges.
     OnLine,
-    /// What another joint becomes when the symmetry is done so often.
+    /// The image of another joint.
     Image {
         /// The other.
         of: usize,
-        /// How often: once, or twice by thirds of a turn.
+        /// The number of times that the symmetry is applied: once, or twice for thirds of a turn.
         times: u8,
     },
     /// The fourth corner of a parallelogram: from the first joint to the second as from the third to this one.
@@ -77,8 +77,8 @@ pub enum NoRules {
     /// The parallelograms of the jaws ask for what the symmetry does not give.
     #[error("the parallelograms do not go with the symmetry")]
     Parallelograms,
-    /// What is to be on one pin with its image is none of a link that the symmetry keeps.
-    #[error("joints that are no images of each other are to be on one pin")]
+    /// A joint is to be on one pin with its image, but no link of it is kept by the symmetry.
+    #[error("joints that are not images of each other are to be on one pin")]
     OnePin,
     /// No way of lying on itself moves.
     #[error("in no symmetric places do its jaws move against each other")]
@@ -94,11 +94,11 @@ pub struct Rules {
     pub rules: Vec<Rule>,
     /// The gear pairs among them.
     pub meshes: Vec<Option<Mesh>>,
-    /// Of each slide the link that has its block, the other having the guide: the driver, or what is not the frame.
+    /// The link of each slide that has the block: the driver, or the link that is not the frame. The other link has the guide.
     pub blocks: Vec<usize>,
     /// Joints in an order in which each comes after those that it follows from.
     order: Vec<usize>,
-    /// Where each joint's links go.
+    /// The image of each link under the symmetry.
     swap: Vec<usize>,
     symmetry: Symmetry,
     /// Whether pinions are screws, and racks nuts.
@@ -108,10 +108,10 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// The rules of a structure that lies on itself so.
+    /// Returns the rules of a structure whose symmetry carries its links as `lay` says.
     ///
     /// # Errors
-    /// Why it cannot.
+    /// Returns an error if the structure cannot be laid out in this way.
     pub fn new(structure: &Structure, lay: &Lay) -> Result<Rules, NoRules> {
         let (chain, symmetry) = (&structure.structure.chain, structure.form.symmetry);
         let joints = chain.joints_made();
@@ -187,7 +187,7 @@ impl Rules {
         })
     }
 
-    /// The joints that may be placed, each for its image, too.
+    /// Returns the joints that may be placed. The image of a joint follows it.
     pub(crate) fn movable(&self) -> impl Iterator<Item = usize> + '_ {
         let fixed = |i: usize| {
             let own = matches!(self.rules[i], Rule::Own(_));
@@ -202,7 +202,7 @@ impl Rules {
         (0..self.joints.len()).filter(move |&i| !follows(i) && !fixed(i))
     }
 
-    /// The pairs of joints that are images of each other.
+    /// Returns the pairs of a joint and its image.
     pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let rules = self.rules.iter().enumerate();
         rules.filter_map(|(i, rule)| match rule {
@@ -211,7 +211,7 @@ impl Rules {
         })
     }
 
-    /// The image of a point.
+    /// Returns the image of a point.
     #[must_use]
     pub fn image(&self, [x, y]: Point) -> Point {
         match self.symmetry {
@@ -222,7 +222,7 @@ impl Rules {
         }
     }
 
-    /// The place of a joint as what it is exactly.
+    /// Returns the exact place of a joint.
     #[must_use]
     pub fn place(&self, points: &[Point], joint: usize) -> Place {
         match self.rules[joint] {
@@ -298,7 +298,7 @@ impl Rules {
         }
     }
 
-    /// Where the pitch circles of a gear pair touch.
+    /// Returns the point where the pitch circles of a gear pair touch.
     fn pitch_point(&self, at: &Places, i: usize) -> Option<Point> {
         let mesh = self.meshes[i]?;
         let centres = mesh.held.map(|j| at.points[j]);
@@ -307,7 +307,7 @@ impl Rules {
     }
 }
 
-/// Whether a joint that is its own image may lie in two ways.
+/// Returns whether a joint that is its own image may lie in two ways.
 fn has_two_ways(pair: PairKind, swapped: bool, symmetry: Symmetry) -> Result<bool, NoRules> {
     match (pair, symmetry) {
         (PairKind::Slot, _) if swapped => Err(NoRules::SwappedSlot),
@@ -317,14 +317,14 @@ fn has_two_ways(pair: PairKind, swapped: bool, symmetry: Symmetry) -> Result<boo
     }
 }
 
-/// The joint between other links that is the image of one: of two slots the first is that of the first.
+/// Returns the joint between other links that is the image of a joint. The first of two slots is the image of the first.
 fn image_of(joints: &[Joint], joint: usize, links: [usize; 2]) -> Option<usize> {
     let own = |j: &&Joint| j.links == joints[joint].links;
     let before = joints[..joint].iter().filter(own).count();
     joints.iter().positions(|j| j.links == links).nth(before)
 }
 
-/// The link with the block of each slide, images having images; of other joints their second.
+/// Returns the link with the block of each slide, and the second link of each other joint. The block of an image is the image of the block.
 fn blocks(structure: &Structure, lay: &Lay, joints: &[Joint], rules: &[Rule]) -> Vec<usize> {
     let drive = structure.structure.roles.drive();
     let frame = structure.structure.roles.frame;
@@ -379,7 +379,7 @@ fn parallelograms(rings: &[[[usize; 2]; 4]], joints: &[Joint], rules: &mut [Rule
     Some(())
 }
 
-/// Every joint after those it follows from; `None` where they follow from each other.
+/// Returns the joints in an order in which each comes after those that it follows from; `None` if joints follow from each other.
 fn in_order(rules: &[Rule]) -> Option<Vec<usize>> {
     let mut order: Vec<usize> = Vec::new();
     while order.len() < rules.len() {
@@ -397,7 +397,7 @@ fn in_order(rules: &[Rule]) -> Option<Vec<usize>> {
     Some(order)
 }
 
-/// The carrier of a gear pair: the first that is allowed of those that hinge both, then of those that let one slide.
+/// Returns a gear pair with its carrier: the first allowed link that is hinged to both gears, or otherwise the first on which one slides.
 fn mesh(
     chain: &Chain,
     joints: &[Joint],

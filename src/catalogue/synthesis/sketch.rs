@@ -1,5 +1,5 @@
-//! What of a structure does not depend on where its joints are, gathered once for the many places that are tried; and what is asked of it
-//! while they are.
+//! Sketches: the properties of a structure that do not depend on the places of its joints, gathered once for the many places that are
+//! tried. A sketch also says what places cost.
 
 use crate::chains::chain::Joint;
 use crate::chains::{Input, PairKind, Symmetry};
@@ -31,7 +31,7 @@ pub struct Sketch<'a> {
     pub drive: [usize; 2],
     /// What it is to be like and to do.
     pub limits: Limits,
-    /// Contours, and their closure, of hinges alone: turns are the only unknown then.
+    /// Contours, and their closure, if the structure has only hinges: turns are the only unknowns then.
     pub(super) contours: Option<Contours>,
     pub(super) closure: Option<Closure>,
     /// All sides, where there are three in one plane.
@@ -43,7 +43,7 @@ pub struct Sketch<'a> {
 }
 
 impl<'a> Sketch<'a> {
-    /// Gathers it.
+    /// Gathers the properties of a structure.
     #[must_use]
     pub fn new(structure: &'a Structure, rules: Rules, limits: Limits) -> Sketch<'a> {
         let (chain, roles) = (&structure.structure.chain, &structure.structure.roles);
@@ -110,7 +110,7 @@ const LARGE: f64 = 25.0;
 const SMALL: f64 = 8.0;
 
 impl Sketch<'_> {
-    /// What places cost; `None` where that is more than wanted, or, with motion, where they are singular.
+    /// Returns the cost of places. `None` if it is more than `most`, or if motion is included and the pose is singular.
     ///
     /// # Complexity
     /// That of the crossings that are new, and with motion an elimination.
@@ -129,14 +129,14 @@ impl Sketch<'_> {
         })
     }
 
-    /// What is broken of the limits by how places look, for a search that asks for no more.
+    /// Returns the cost of the limits that places break in the drawn pose, for a search that asks for no more.
     #[must_use]
     pub fn breaks(&self, at: &Places, seen: &mut SeenSides) -> f64 {
         let (points, bones) = self.drawn(at);
         bones.breaks(&points, &self.limits, seen) + self.pitch_penalty(at)
     }
 
-    /// What places look like; `None` where they are singular.
+    /// Returns the figures of the drawn pose; `None` if it is singular.
     ///
     /// # Complexity
     /// That of all crossings, and an elimination.
@@ -154,7 +154,7 @@ impl Sketch<'_> {
         Some((self.bones).motion(&at.points, &velocities, least_force))
     }
 
-    /// What pitch circles cost that are too large or too small.
+    /// Returns the cost of pitch circles that are too large or too small.
     pub(super) fn pitch_penalty(&self, at: &Places) -> f64 {
         let cost = |r: f64| beyond(r - LARGE, 10.0) + beyond(SMALL - r, 3.0);
         let mut sum = 0.0;

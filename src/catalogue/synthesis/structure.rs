@@ -14,12 +14,12 @@ use itertools::Itertools;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
-/// What of a gripper of two jaws stands three times.
+/// The part of a gripper of two jaws that is repeated three times in a gripper of three jaws.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sides {
     /// The links of a side, that of the first jaw, by their numbers there.
     pub side: Vec<usize>,
-    /// The links that stand once: the frame, the driver and what else the turn carries to itself.
+    /// The links that are not repeated: the frame, the driver and others that the turn carries to themselves.
     pub own: Vec<usize>,
     /// How the gripper of two jaws lies on itself.
     pub(super) lay: Lay,
@@ -32,7 +32,7 @@ pub struct Structure {
     pub structure: PairStructure,
     /// How it is laid out.
     pub form: Form,
-    /// What of it stands three times, where it has three jaws and is made of one with two.
+    /// The part that is repeated three times, if the gripper has three jaws and is made of one with two.
     pub sides: Option<Sides>,
 }
 
@@ -41,11 +41,11 @@ pub struct Structure {
 pub struct Form {
     /// Mirror image, half turn or generic.
     pub symmetry: Symmetry,
-    /// Whether it is one of hinges alone, driven from the frame by a hinge or by a slide along the x axis, and goes by the name of its graph.
+    /// Whether it has only hinges except for the input, a hinge or a slide along the x axis at the frame. Its name begins with its graph then.
     pub hinges: bool,
-    /// Whether the symmetry carries the input joint elsewhere, so that it drives one side alone.
+    /// Whether the symmetry carries the input joint elsewhere, so that it drives only one side.
     pub one_sided: bool,
-    /// Whether each jaw stands on a parallelogram with the frame or a driver that slides in it, so that it does not turn.
+    /// Whether each jaw is on a parallelogram, with the frame or with a driver that slides in it, so that it does not turn.
     pub parallel: bool,
     /// Whether slots between links that keep their attitude against each other have flat faces: slides, redundant in the plane already.
     pub flat: bool,
@@ -56,7 +56,7 @@ pub struct Form {
 }
 
 impl Form {
-    /// A symmetry, driven on both sides, without parallelograms.
+    /// Returns the form with a symmetry, driven on both sides, without parallelograms.
     #[must_use]
     pub fn of_symmetry(symmetry: Symmetry) -> Form {
         Form {
@@ -70,7 +70,7 @@ impl Form {
         }
     }
 
-    /// Every form of structures of hinges alone with how they are driven, in order.
+    /// Returns every form of structures that have only hinges, each with its input, in order.
     pub fn of_hinges() -> impl Iterator<Item = (Input, Form)> {
         let inputs = Input::ALL.into_iter().map(|(input, _)| input);
         let symmetries = Symmetry::ALL.map(|(symmetry, _)| symmetry);
@@ -87,13 +87,14 @@ impl Form {
         })
     }
 
-    /// Whether a gripper of so many jaws is laid out so in a plane. Three jaws stand on no parallelograms: that takes many links.
+    /// Returns whether a gripper of N jaws can be laid out in this form in a plane. Three jaws are never on parallelograms: that takes many
+    /// links.
     #[must_use]
     pub fn suits(self, jaws: usize) -> bool {
         self.symmetry.jaws().is_none_or(|n| n == jaws) && (jaws == 2 || !self.parallel)
     }
 
-    /// Whether a joint, the first of two, is on one pin with its image.
+    /// Returns whether a joint, the first of two, is on one pin with its image.
     #[must_use]
     pub(super) fn is_on_one_pin(self, joint: usize) -> bool {
         self.one_pin
@@ -101,7 +102,7 @@ impl Form {
             .is_some_and(|rest| rest & 1 == 1)
     }
 
-    /// All of it in words, the symmetry first.
+    /// Returns the form in words, the symmetry first.
     pub(super) fn name(self, symmetry: &str) -> String {
         let parallel = if self.parallel { " parallel" } else { "" };
         let flat = if self.flat { " flat" } else { "" };
@@ -113,14 +114,14 @@ impl Form {
 /// How a symmetric structure may lie on itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lay {
-    /// Where the symmetry carries each link.
+    /// The image of each link under the symmetry.
     pub swap: Vec<usize>,
     /// A bit for each slide and slot that is its own mirror image, as [`crate::chains::motion::SymmetricWay`] has them.
     pub bits: u32,
 }
 
 impl Lay {
-    /// Whether a joint may be on one pin with its image: a hinge of a link that the symmetry keeps with one that it does not.
+    /// Returns whether a joint may be on one pin with its image: a hinge between a link that the symmetry keeps and one that it moves.
     #[must_use]
     pub(super) fn may_share(&self, joint: &Joint) -> bool {
         let kept = joint.links.map(|l| self.swap[l] == l);
@@ -129,7 +130,7 @@ impl Lay {
 }
 
 impl Structure {
-    /// A structure without what stands three times.
+    /// Returns a structure without repeated sides.
     #[must_use]
     pub fn new(structure: PairStructure, form: Form) -> Structure {
         Structure {
@@ -139,7 +140,7 @@ impl Structure {
         }
     }
 
-    /// The name that says all of it; of hinges alone "E`ow 0-3 1,4 slide mirror" is the graph, frame and driver, jaws, and the form.
+    /// Returns the full name. With only hinges, "E`ow 0-3 1,4 slide mirror" is the graph, frame and driver, jaws, input and form.
     #[must_use]
     pub fn name(&self) -> String {
         let form = self.form.name(&self.symmetry_name());
@@ -157,7 +158,7 @@ impl Structure {
         format!("{} {form}{}", self.structure.name(), pins.format(""))
     }
 
-    /// The symmetry in a word: "mirror", "mirror-but-input".
+    /// Returns the symmetry in a word: "mirror", "mirror-but-input".
     #[must_use]
     pub(crate) fn symmetry_name(&self) -> String {
         let but = if self.form.one_sided {
@@ -171,7 +172,7 @@ impl Structure {
         }
     }
 
-    /// The hinges that are on one pin with their images, of both the first.
+    /// Returns the hinges that are on one pin with their images, the first of each two.
     fn on_one_pin(&self) -> impl Iterator<Item = Joint> {
         let joints = self.structure.chain.joints_made().into_iter();
         let shared = joints.enumerate();
@@ -179,7 +180,7 @@ impl Structure {
         shared.map(|(_, joint)| joint)
     }
 
-    /// What it is beside its structure.
+    /// Returns the properties of the gripper that its chain and roles do not have.
     #[must_use]
     pub fn made_as(&self) -> MadeAs {
         let roles = &self.structure.roles;
@@ -191,7 +192,8 @@ impl Structure {
         }
     }
 
-    /// This, and the same with hinges on one pin with their mirror images, in every way in which no link has two such pins.
+    /// Returns the structure, and the structure with hinges on one pin with their mirror images, in every way in which no link has two
+    /// such pins.
     ///
     /// # Complexity
     /// As [`Structure::lays`].
@@ -233,13 +235,13 @@ impl Structure {
         id
     }
 
-    /// Where the tips of the jaws are drawn for a task, in millimetres.
+    /// Returns the places of the tips of the jaws as drawn for a task, in millimetres.
     #[must_use]
     pub fn tips(&self, task: &Task) -> Vec<Place> {
         task::draw_tips(self.structure.roles.jaws.len(), self.form.symmetry, task)
     }
 
-    /// How it is driven.
+    /// Returns how the structure is driven.
     #[must_use]
     pub fn input(&self) -> Input {
         if self.structure.slides() {
@@ -249,7 +251,7 @@ impl Structure {
         }
     }
 
-    /// The ways it may lie on itself in which it moves as a gripper.
+    /// Returns the ways in which the symmetry may carry the structure to itself while it moves as a gripper.
     ///
     /// # Complexity
     /// An elimination for each way of each automorphism.
@@ -298,10 +300,10 @@ impl Structure {
         swaps.into_iter().flat_map(of)
     }
 
-    /// The first way in which one of hinges alone lies on itself and moves as a gripper.
+    /// Returns the first of the ways of [`Structure::lays`] for a structure of hinges.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Returns an error if there is no such way.
     ///
     /// # Complexity
     /// A canonical numbering, and an elimination for each automorphism.
@@ -321,8 +323,8 @@ impl Structure {
         Ok(Lay { swap, bits: 0 })
     }
 
-    /// The joints of a parallelogram for each jaw, or `None` where one has none: of two rods those at the base, then those at the
-    /// jaw in the same order.
+    /// Returns the joints of a parallelogram for each jaw, or `None` if a jaw has none: those of two rods at the base, then those at the jaw
+    /// in the same order.
     #[must_use]
     pub fn rings(&self) -> Option<Vec<[[usize; 2]; 4]>> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
@@ -341,8 +343,8 @@ impl Structure {
         roles.jaws.iter().map(|&jaw| ring(jaw)).collect()
     }
 
-    /// Whether an automorphism keeps frame and input joint and carries each jaw to the next, back after as many times as there are
-    /// jaws: it swaps two.
+    /// Returns whether there is an automorphism that keeps frame and input joint and carries each jaw to the next: one of
+    /// [`Subject::swaps`].
     #[must_use]
     pub fn is_graph_symmetric(&self) -> bool {
         let chain = &self.structure.chain;
@@ -362,7 +364,7 @@ impl Structure {
         }
     }
 
-    /// The slots that have flat faces.
+    /// Returns the slots that have flat faces.
     #[must_use]
     pub fn flat_slots(&self) -> Vec<Joint> {
         if self.form.flat {
@@ -372,7 +374,7 @@ impl Structure {
         }
     }
 
-    /// The same with flat faces, where it has slots that may have them.
+    /// Returns the structure with flat faces, if it has slots that may have them.
     #[must_use]
     pub(crate) fn with_flat_faces(&self) -> Option<Structure> {
         let flat = !self.structure.chain.flat_slots().is_empty();
@@ -382,7 +384,8 @@ impl Structure {
         })
     }
 
-    /// The same with a screw for a pinion whose racks are the jaws, guided in the frame as it is; `None` where that is not all.
+    /// Returns the structure with a screw and nuts instead of a pinion and racks. `None` unless it consists of a frame, a pinion and two
+    /// jaws that are racks and slide in the frame.
     #[must_use]
     pub(crate) fn with_threads(&self) -> Option<Structure> {
         let (chain, roles) = (&self.structure.chain, &self.structure.roles);
@@ -401,14 +404,14 @@ impl Structure {
         })
     }
 
-    /// This, and the same with each jaw on a parallelogram, where it has one.
+    /// Returns the structure, and the structure with each jaw on a parallelogram if each jaw has one.
     pub(crate) fn with_parallelograms(self) -> impl Iterator<Item = Structure> {
         let found = self.clone().on_parallelograms_if_any();
         let found = found.form.parallel.then_some(found);
         std::iter::once(self).chain(found)
     }
 
-    /// Whether all joints are hinges but for a driver that slides in the frame, and no jaw is driven: laid out as a hinged structure.
+    /// Returns whether all joints are hinges except for the joint of a driver in the frame, and no jaw is driven.
     #[must_use]
     pub fn is_hinged(&self) -> bool {
         let roles = &self.structure.roles;

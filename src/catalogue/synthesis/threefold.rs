@@ -65,20 +65,20 @@ impl Sides {
 }
 
 impl Structure {
-    /// The gripper of three jaws that is made of it, where there is one.
+    /// Returns the gripper of three jaws that is made of this one of two, if there is one.
     #[must_use]
     pub fn thrice(self) -> Option<Structure> {
         let sides = Some(Sides::new(&self)?);
         Some(Structure { sides, ..self })
     }
 
-    /// Whether its sides are in planes of their own, round the axis along which the driver slides.
+    /// Returns whether the sides are in separate planes, around the axis along which the driver slides.
     #[must_use]
     pub fn is_axial(&self) -> bool {
         self.sides.is_some() && self.form.symmetry == Symmetry::Mirror
     }
 
-    /// What its sides are turned about.
+    /// Returns the axis about which the sides are turned.
     pub(super) fn pivot(&self) -> Pivot {
         if self.is_axial() {
             Pivot::Ahead
@@ -87,14 +87,14 @@ impl Structure {
         }
     }
 
-    /// Number of links.
+    /// Returns the number of links.
     #[must_use]
     pub fn links(&self) -> usize {
         let all = self.structure.chain.links();
         (self.sides.as_ref()).map_or(all, |s| s.own.len() + SIDES * s.side.len())
     }
 
-    /// The number of a link on one of the sides, by what it is on the first.
+    /// Returns the number of a link on one of the sides, from its number on the first side.
     #[must_use]
     pub fn link(&self, of: usize, side: usize) -> Option<usize> {
         let Some(sides) = &self.sides else {
@@ -105,7 +105,7 @@ impl Structure {
         own.or_else(|| Some(sides.own.len() + side * sides.side.len() + at(&sides.side)?))
     }
 
-    /// Whether a joint stands once, three times, or not at all, since it is of the other side.
+    /// Returns the number of copies of a joint: one, three, or none if it is on the other side.
     #[must_use]
     pub fn copies(&self, joint: &Joint) -> usize {
         let Some(sides) = &self.sides else { return 1 };
@@ -116,7 +116,7 @@ impl Structure {
         }
     }
 
-    /// Chain and roles with all sides.
+    /// Returns chain and roles with all sides.
     #[must_use]
     pub fn whole_structure(&self) -> PairStructure {
         let PairStructure { chain, roles } = &self.structure;

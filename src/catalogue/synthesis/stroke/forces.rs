@@ -1,5 +1,5 @@
-//! Forces in the joints at a pose of the stroke, the jaws each holding the part with a newton, without friction, where all are hinges or
-//! one slides; and what forces say of it: the greatest, how well driver and jaws pass work on, and how much of it friction would take.
+//! Forces in the joints at a pose of the stroke, if all joints are hinges except for an input that slides. Each jaw holds the part with a
+//! newton, without friction. The figures of forces are the greatest force, how well driver and jaws pass work on, and the efficiency.
 
 use super::pose::LinkPose;
 use crate::chains::Input;
@@ -9,7 +9,7 @@ use crate::synthesis::place::Point;
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::velocities::{Contours, Side};
 
-/// What a joint does: the force on its second link, where that acts, and a moment beside it, in N and N mm.
+/// The action of a joint: the force on its second link, the point at which it acts, and a moment, in N and N mm.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::synthesis) struct JointForce {
     /// On the second link of the joint.
@@ -24,13 +24,13 @@ pub(in crate::synthesis) struct JointForce {
 #[derive(Debug, Clone)]
 pub(in crate::synthesis) struct HingeForces {
     system: SmallSystem,
-    /// Of each pin; of a slide what presses on the driver across it.
+    /// The force of each pin. The force of a slide presses on the driver, across the guide.
     pub(super) pins: Vec<JointForce>,
-    /// What acts on each link besides its joint in the tree.
+    /// The wrench on each link, without the force of its joint in the tree.
     on_links: Vec<Wrench>,
 }
 
-/// What forces say of a pose, or of the worst of a stroke.
+/// Figures of the forces at a pose, or the worst figures of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForceFigures {
     /// The greatest joint force, in N for 1 N of each jaw.
@@ -43,14 +43,14 @@ pub struct ForceFigures {
 }
 
 impl ForceFigures {
-    /// What is better than all poses.
+    /// Figures that are better than those of any pose.
     pub const BEST: ForceFigures = ForceFigures {
         peak: 0.0,
         transmission: 90.0,
         efficiency: 1.0,
     };
 
-    /// What is said where the forces are beyond all bounds.
+    /// The figures if the forces are beyond all bounds.
     pub const WORST: ForceFigures = ForceFigures {
         peak: f64::INFINITY,
         transmission: 0.0,
@@ -88,7 +88,7 @@ impl Wrench {
 }
 
 impl HingeForces {
-    /// Room for those of a sketch.
+    /// Returns room for the forces of a sketch.
     pub(super) fn new(sketch: &Sketch<'_>, contours: &Contours) -> HingeForces {
         HingeForces {
             system: SmallSystem::new(2 * contours.cuts.len(), 1),
@@ -97,11 +97,11 @@ impl HingeForces {
         }
     }
 
-    /// Solves for the forces, with the links at these poses and points drawn at these places; `false` where there is no one
+    /// Solves for the forces, with the links at these poses and points drawn at these places. Returns whether there is exactly one
     /// solution.
     ///
-    /// One pin of each contour is cut. What is left is a tree, whose links turn one without the other: what the forces in the
-    /// cuts and the part do at every turn adds up to nothing. From the cuts on, each link tells what its joint in the tree bears.
+    /// One pin of each contour is cut. This leaves a tree, whose links turn independently. At every turn, the work of the forces in the
+    /// cuts and at the part adds up to zero. From the forces in the cuts, each link gives the force of its joint in the tree.
     ///
     /// # Complexity
     /// O(c³ + n) for c contours and n links.

@@ -104,7 +104,7 @@ pub struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// Of a sketch.
+    /// Returns a judge of the places of a sketch.
     #[must_use]
     pub fn new(sketch: &'a Sketch<'a>) -> Judge<'a> {
         Judge {

@@ -14,12 +14,12 @@ use crate::synthesis::pose_forces::{figures, forces};
 use crate::synthesis::sketch::Sketch;
 use crate::synthesis::velocities::{Contours, Velocity};
 
-/// What holds where the links fit together: of hinges alone turns are the only unknown.
+/// The equations of the links at a pose. If all joints are hinges, turns are the only unknowns.
 #[derive(Debug)]
 pub(in crate::synthesis) enum Equations<'a> {
-    /// Of contours.
+    /// The equations of contours.
     Turns(&'a Contours, Arms<'a>, HingeForces),
-    /// Of joints.
+    /// The equations of joints.
     Poses(PoseEquations<'a>),
 }
 
@@ -49,7 +49,7 @@ impl FitEquations for Equations<'_> {
 /// The strokes of a sketch, one after another.
 #[derive(Debug)]
 pub(in crate::synthesis) struct Motion<'a> {
-    /// What is moved.
+    /// The structure that moves.
     pub(in crate::synthesis) sketch: &'a Sketch<'a>,
     /// The pose on the way.
     pub(super) walk: Walk<Equations<'a>>,
@@ -77,7 +77,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Where the links are at the pose that the walk stands in.
+    /// Writes the poses and velocities of the links at the current pose of the walk.
     pub(super) fn pose(&self, at: &Places, links: &mut [LinkPose]) {
         match &self.walk.equations {
             Equations::Turns(contours, arms, _) => {
@@ -138,7 +138,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// What the joint forces say there; `None` where they have no one solution.
+    /// Returns the figures of the joint forces at a pose; `None` if the forces do not have exactly one solution.
     pub(super) fn forces(&mut self, at: &Places, links: &[LinkPose]) -> Option<ForceFigures> {
         match &mut self.walk.equations {
             Equations::Turns(contours, _, hinges) => {

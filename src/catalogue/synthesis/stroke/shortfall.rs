@@ -1,10 +1,10 @@
-//! What a stroke does not do of what the task asks: the worst of it, in words.
+//! Shortfalls: the first requirement of a task that a stroke does not meet, in words.
 
 use super::judge::StrokeFigures;
 use crate::synthesis::task::{AskedMotion, Limits, PARALLEL};
 use std::fmt;
 
-/// What is not done.
+/// A requirement that is not met.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shortfall {
     /// Whether it is that the jaws do not come as far together or apart as is asked.
@@ -22,7 +22,8 @@ impl fmt::Display for Shortfall {
 pub(super) const NOISE: f64 = 1e-6;
 
 impl Limits {
-    /// What a stroke lacks most of what the task asks, `swings` being whether every jaw turns about a hinge in the frame.
+    /// Returns the first requirement of the task that a stroke does not meet. `swings` says whether every jaw turns about a hinge in the
+    /// frame.
     #[must_use]
     pub fn shortfall(&self, f: &StrokeFigures, swings: bool) -> Option<Shortfall> {
         let task = &self.task;
