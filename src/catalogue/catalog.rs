@@ -1,5 +1,5 @@
-//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query. Structures as
-//! mechanisms, and the searches that a catalogue makes of them, stand here.
+//! Catalogues: every structure of a range of chains laid out, searched and scored, in a database that people can query. This file has
+//! the searches that a catalogue makes of its mechanisms.
 
 pub mod build;
 pub mod drawn;

@@ -1,4 +1,4 @@
-//! Kinematic chains: which links are joined to which, and by what, before anything has a place; and the grippers that their links make.
+//! Kinematic chains: the links and the kinds of joints between them, without places; and the grippers that they make.
 //!
 //! A [`PairKind`] leaves one freedom (hinge, slide) or two (gear pair or rack; pin in a slot, cam, wedge). A planar chain of n links
 //! therefore has the mobility W = 3(n - 1) - 2(R + P) - (G + S). A chain of hinges only has no rigid part if every part of two links
@@ -34,11 +34,11 @@ pub enum PairKind {
     Hinge = 1,
     /// One slides along the other.
     Slide,
-    /// Teeth: two gears, or a rack and its pinion. They roll, and their centres do not keep their distance by it.
+    /// Teeth: two gears, or a rack and its pinion. They roll, but the teeth do not keep their centres at a distance.
     Gear,
     /// A pin in a slot, a cam and its follower, a wedge: they touch along a line of action.
     Slot,
-    /// Two pins in two slots: they turn about where the lines of action meet, as about a hinge that goes elsewhere as they move.
+    /// Two pins in two slots: they turn about the point where the lines of action meet. This point moves as they do.
     TwoSlots,
 }
 
@@ -91,16 +91,16 @@ impl PairKind {
     }
 }
 
-/// How a structure lies on itself.
+/// The symmetry of a structure and its layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Symmetry {
-    /// Not at all: every pin where it likes.
+    /// No symmetry: the place of every pin is free.
     Generic,
-    /// Across a line, along which the driver slides.
+    /// A mirror image across a line, along which the driver slides.
     Mirror,
-    /// By half a turn about a centre, about which the driver turns.
+    /// Half a turn about a centre, about which the driver turns.
     HalfTurn,
-    /// By a third of a turn about a centre, about which the driver turns: three jaws.
+    /// A third of a turn about a centre, about which the driver turns: three jaws.
     Threefold,
 }
 

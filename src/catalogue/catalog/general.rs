@@ -50,7 +50,7 @@ pub struct General {
 /// A chain of hinges and its input. Layouts of structures with the same pair have the same determinate variants in general position.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct InputPair {
-    /// The chain, with a slide where the driver slides.
+    /// The chain. Its input joint is a slide if the driver slides.
     chain: Chain,
     /// The links of the input joint, the lesser number first.
     input: [usize; 2],

@@ -16,7 +16,7 @@ use rusqlite::types::ToSqlOutput;
 use rusqlite::{ToSql, Transaction};
 use std::collections::BTreeMap;
 
-/// Adds a row, or puts it in the place of the one that was there.
+/// Adds a row, or replaces the existing row of the structure.
 pub(super) fn row(t: &Transaction<'_>, row: &StructureRow) -> rusqlite::Result<()> {
     let of = &row.structure;
     let id = of.id();

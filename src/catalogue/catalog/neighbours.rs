@@ -49,10 +49,10 @@ const fn figure(
     }
 }
 
-/// Values of them.
+/// The values of the figures of a layout; `None` for a figure that it does not have.
 type Figures = [Option<f64>; FIGURES.len()];
 
-/// How structures are next to each other, from the nearest on.
+/// The relations of structures that are next to each other, the nearest first.
 const RELATIONS: [&str; 3] = ["other-roles", "fewer-links", "more-links"];
 
 /// A structure next to a given one.

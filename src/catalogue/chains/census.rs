@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::ops::{AddAssign, Index};
 use std::sync::{Mutex, PoisonError};
 
-/// How many pairs of each kind that is no hinge a chain has.
+/// The numbers of pairs of a chain, for each kind other than hinges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Kinds {
     /// Slides.
@@ -64,23 +64,23 @@ pub enum Counted {
     Floating,
     /// One jaw is joined to the frame.
     OneAtFrame,
-    /// Both are.
+    /// Both jaws are joined to the frame.
     BothAtFrame,
     /// They make a truss with a part hinged to both jaws.
     Truss,
     /// All jaws keep their attitude.
     Translating,
-    /// An automorphism keeps frame and input joint and swaps the jaws, or carries three round.
+    /// An automorphism keeps frame and input joint, and swaps two jaws or carries three around.
     GraphSymmetric,
     /// They move symmetrically in places that mirror each other. Grippers of hinges are counted with a slide as their input.
     Mirror,
     /// The same without the demand on the input joint.
     MirrorButInput,
-    /// They move so in places that half a turn carries to each other.
+    /// They move symmetrically in places that half a turn carries to each other.
     HalfTurn,
     /// The same without the demand on the input joint.
     HalfTurnButInput,
-    /// They move so in places that a third of a turn carries to each other.
+    /// They move symmetrically in places that a third of a turn carries to each other.
     Threefold,
 }
 
@@ -182,7 +182,7 @@ pub struct Census {
     pub chains: u64,
     /// Choices of a frame.
     pub frames: u64,
-    /// Choices of an input joint without a frame, for chains that have hinges only.
+    /// Choices of an input joint, without a frame.
     pub inputs: u64,
     /// Choices of a frame and an input joint at it.
     pub inputs_at_frame: u64,

@@ -78,11 +78,11 @@ impl Roles {
 pub struct Symmetries {
     /// Whether an automorphism of order two keeps the frame and the input joint and swaps the jaws.
     pub graph: bool,
-    /// Whether it moves so in places that mirror each other.
+    /// Whether it moves symmetrically in places that mirror each other.
     pub mirror: bool,
     /// The same without the demand on the input joint.
     pub mirror_but_input: bool,
-    /// Whether it moves so in places that half a turn carries to each other.
+    /// Whether it moves symmetrically in places that half a turn carries to each other.
     pub half_turn: bool,
     /// The same without the demand on the input joint.
     pub half_turn_but_input: bool,

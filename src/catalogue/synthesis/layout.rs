@@ -90,7 +90,7 @@ pub enum NoLayout {
     /// In nearly all places it moves otherwise, or not at all.
     #[error("{0}")]
     Motion(#[from] NoGripper),
-    /// Its joints lie in no such places.
+    /// No places of its joints have the symmetry and the form.
     #[error("{0}")]
     Pairs(#[from] NoRules),
     /// The pose is not proven to be a regular one of mobility 1.

@@ -135,7 +135,7 @@ impl<'a> DrawnJoints<'a> {
                 ("prismatic", along, upright, Some(faces()))
             }
             PairKind::Slot => ("slotted", upright.clone(), Some(along), Some(slots())),
-            // Teeth are no joint, and two slots are two.
+            // Teeth are a coupling, and two slots are two joints.
             PairKind::Hinge | PairKind::Gear | PairKind::TwoSlots => {
                 ("revolute", upright.clone(), None, None)
             }
@@ -149,7 +149,7 @@ impl<'a> DrawnJoints<'a> {
         };
         let mut at = self.place(i, side);
         if let Some(mesh) = self.rules.meshes[i].filter(|_| thread.is_some()) {
-            // On the guide, so that the screw's axis goes through it.
+            // The point is on the guide, so that the axis of the screw goes through it.
             at.whole[1] = self.place(mesh.held[1], side).whole[1];
         }
         let thirds = at.thirds;
@@ -200,7 +200,7 @@ impl<'a> DrawnJoints<'a> {
             _ => None,
         });
         let lead = lead.map(|(mesh, lead)| {
-            // A nut that does not turn goes back where the screw turns on.
+            // If the nut does not turn, it goes back as the screw turns on.
             let [_, y] = self.at.along[mesh.held[1]].place().whole;
             -lead * i64::from(y.signum())
         });
@@ -359,7 +359,7 @@ pub fn mechanism_file(
             inertia: None,
         }
     });
-    // The tips, so that drawings have whole jaws.
+    // With the tips, drawings show whole jaws.
     let shown = tips.iter().zip(&roles.jaws).zip(["a", "b", "c"]);
     let shown = shown.map(|((&tip, &jaw), letter)| PointEntry {
         id: format!("tip-{letter}"),

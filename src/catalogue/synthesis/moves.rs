@@ -98,7 +98,7 @@ impl Sketch<'_> {
         }
     }
 
-    /// Gives every place where a point stands that is at one of them.
+    /// Calls `take` with every place of a point: on one side, or on all sides of three.
     pub(super) fn each_copy(&self, point: usize, at: Point, take: &mut dyn FnMut(Point)) {
         match &self.around {
             None => take(at),
@@ -106,8 +106,8 @@ impl Sketch<'_> {
         }
     }
 
-    /// Gives every pitch circle, by the joint at its centre and its radius in mm, and whether its teeth mesh with what does not belong to
-    /// the half of the other jaw.
+    /// Calls `take` with every pitch circle: the joint at its centre, its radius in mm, and whether its gear meshes with one that does not
+    /// belong to the half of the other jaw.
     pub(super) fn each_circle(&self, at: &Places, take: &mut dyn FnMut(usize, f64, bool)) {
         let meshes = self.rules.meshes.iter().enumerate();
         if self.rules.threaded {

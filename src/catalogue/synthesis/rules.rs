@@ -59,7 +59,7 @@ impl Mesh {
     }
 }
 
-/// Why a structure of pairs lies nowhere.
+/// Why a structure has no rules for its places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoRules {
@@ -68,19 +68,19 @@ pub enum NoRules {
         "a pin in a slot, or a flat face, between links that change places is not its own image as it moves"
     )]
     SwappedSlot,
-    /// A slot by half a turn onto itself.
+    /// A slot that half a turn carries to itself.
     #[error("a pin at the centre of half a turn moves in no slot")]
     CentralSlot,
     /// Gears that change places, on a carrier that does so, too.
     #[error("gears that change places need a carrier that does not")]
     SwappedCarrier,
-    /// The parallelograms of the jaws ask for what the symmetry does not give.
+    /// The parallelograms of the jaws are not compatible with the symmetry.
     #[error("the parallelograms do not go with the symmetry")]
     Parallelograms,
     /// A joint is to be on one pin with its image, but no link of it is kept by the symmetry.
     #[error("joints that are not images of each other are to be on one pin")]
     OnePin,
-    /// No way of lying on itself moves.
+    /// The structure does not move in any way in which the symmetry may carry it to itself.
     #[error("in no symmetric places do its jaws move against each other")]
     Still,
 }
@@ -103,7 +103,7 @@ pub struct Rules {
     symmetry: Symmetry,
     /// Whether pinions are screws, and racks nuts.
     pub threaded: bool,
-    /// Whether all are hinges but the input.
+    /// Whether all joints except for the input are hinges.
     hinges: bool,
 }
 
@@ -149,7 +149,7 @@ impl Rules {
             }
             let mut along = None;
             if has_two_ways(joint.pair, swapped, symmetry)? {
-                // A slot with its line of action across lies ahead, a slide across goes across.
+                // If the bit is set, the line of action of a slot is across, so that the slot is along the mirror line; a slide is across.
                 let across = lay.bits >> ways & 1 == 1;
                 ways += 1;
                 along = Some(if across == (joint.pair == PairKind::Slot) {
@@ -231,7 +231,7 @@ impl Rules {
                 ..Place::of_point(points[of])
             },
             _ if self.hinges => Place::of_point(points[joint]),
-            // Pitch points are not whole, and stand for no joint.
+            // Pitch points are not whole, but no joint of the file is there.
             _ => Place::of_point(points[joint].map(f64::round)),
         }
     }
@@ -245,7 +245,7 @@ impl Rules {
         }
     }
 
-    /// Puts what follows in its place.
+    /// Moves the joints whose places follow from others.
     pub fn settle(&self, at: &mut Places) {
         for &i in &self.order {
             match self.rules[i] {
@@ -343,7 +343,7 @@ fn blocks(structure: &Structure, lay: &Lay, joints: &[Joint], rules: &[Rule]) ->
     rules.iter().enumerate().map(of).collect()
 }
 
-/// Puts hinges on one pin with their images, where they are to be so.
+/// Puts hinges on one pin with their images, if the form asks for it.
 fn on_one_pin(
     structure: &Structure,
     lay: &Lay,
@@ -361,7 +361,8 @@ fn on_one_pin(
     Ok(())
 }
 
-/// Lets one corner of each parallelogram follow from the others; of one that is an image all do already. `None` where none can.
+/// Lets one corner of each parallelogram follow from the others. If a corner is an image, the parallelogram follows already. `None` if no
+/// corner can follow.
 fn parallelograms(rings: &[[[usize; 2]; 4]], joints: &[Joint], rules: &mut [Rule]) -> Option<()> {
     let at = |links: [usize; 2]| joints.iter().position(|j| j.links == links);
     for ring in rings {

@@ -34,7 +34,7 @@ pub struct Sketch<'a> {
     /// Contours, and their closure, if the structure has only hinges: turns are the only unknowns then.
     pub(super) contours: Option<Contours>,
     pub(super) closure: Option<Closure>,
-    /// All sides, where there are three in one plane.
+    /// All sides, if there are three in one plane.
     pub(super) around: Option<Around>,
     /// Which way each tip opens, as [`Bones::apart`].
     pub(super) apart: Vec<Point>,

@@ -21,7 +21,7 @@ pub struct Sides {
     pub side: Vec<usize>,
     /// The links that are not repeated: the frame, the driver and others that the turn carries to themselves.
     pub own: Vec<usize>,
-    /// How the gripper of two jaws lies on itself.
+    /// The way in which the symmetry carries the gripper of two jaws to itself.
     pub(super) lay: Lay,
 }
 
@@ -111,7 +111,7 @@ impl Form {
     }
 }
 
-/// How a symmetric structure may lie on itself.
+/// A way in which the symmetry may carry a structure to itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lay {
     /// The image of each link under the symmetry.
@@ -262,7 +262,7 @@ impl Structure {
             let identity = (0..chain.links()).collect();
             return self.moving_lays([identity]).collect();
         }
-        // Those that carry three jaws to each other are made of two of them.
+        // Grippers of three jaws are made of grippers of two.
         if roles.jaws.len() != 2 {
             return Vec::new();
         }

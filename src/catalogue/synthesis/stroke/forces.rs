@@ -14,9 +14,9 @@ use crate::synthesis::velocities::{Contours, Side};
 pub(in crate::synthesis) struct JointForce {
     /// On the second link of the joint.
     pub(in crate::synthesis) force: Point,
-    /// Where.
+    /// The point at which the force acts.
     pub(in crate::synthesis) at: Point,
-    /// About that point, of a slide.
+    /// The moment of a slide about that point.
     pub(in crate::synthesis) moment: f64,
 }
 

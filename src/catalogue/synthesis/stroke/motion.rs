@@ -96,7 +96,7 @@ impl<'a> Motion<'a> {
                 continue;
             };
             let turning = rates[k + 2] / RADIAN;
-            // Of the point that is at the origin now.
+            // The velocity of the point that is at the origin now.
             let shift = [rates[k], rates[k + 1]];
             pose.velocity = Velocity {
                 turning,

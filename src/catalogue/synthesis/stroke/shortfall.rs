@@ -7,7 +7,7 @@ use std::fmt;
 /// A requirement that is not met.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shortfall {
-    /// Whether it is that the jaws do not come as far together or apart as is asked.
+    /// Whether the jaws do not close or open as far as the task asks.
     pub is_of_reach: bool,
     words: String,
 }

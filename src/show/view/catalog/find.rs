@@ -227,7 +227,7 @@ fn motion(d: &FoundData) -> String {
     format!("{essential}.\nSymmetric layouts: {symmetric}. The jaws {jaws}.\n")
 }
 
-/// Neighbours that the text names; JSON has all.
+/// The maximum number of neighbours in the text; JSON has all.
 const NAMED: usize = 8;
 
 /// Returns a line for each of the first neighbours; an empty text if none is better.
