@@ -19,9 +19,9 @@ use std::cmp::Ordering;
 /// Coordinates of contours that both halves reach, at most: of more there are thousands of minors.
 const WIDEST: usize = 12;
 
-/// Whether every variant of a diagram is determinate in a question without a searched state, where none has more freedoms than another
-/// that it has; none where redundant constraints are allowed that not all variants
-/// have, or where it takes too many nodes or minors.
+/// Returns whether every variant of a diagram is determinate in a question without a searched state. No variant of the diagram may have
+/// more freedoms than another one that it contains. `None` if redundant constraints are allowed that not all variants have, or if it takes
+/// too many nodes or minors.
 ///
 /// # Complexity
 /// O(nodes · choices · s²) field operations for s present self-stresses, of as many nodes as half of the variables add different spaces;

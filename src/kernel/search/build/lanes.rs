@@ -225,7 +225,7 @@ fn faces(question: &Question) -> Vec<JointId> {
     faces.map(|(_, joint)| joint).collect()
 }
 
-/// Returns the motions of a choice under friction at one of its variable's joints; `None` if the joint is no face.
+/// Returns the motions of a choice under friction at one of its variable's joints; `None` if the joint is not a face.
 fn face(choice: &Choice, member: usize) -> Option<&Face> {
     choice.faces.get(member).and_then(Option::as_ref)
 }
@@ -275,7 +275,7 @@ impl StateRows<'_> {
         }
     }
 
-    /// Returns the columns of a choice in this lane; `None` if the lane does not apply, since its joint is no face.
+    /// Returns the columns of a choice in this lane; `None` if the lane does not apply, since its joint is not a face.
     fn columns(
         &self,
         rows: &ClosingRows<'_>,

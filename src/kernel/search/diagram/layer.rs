@@ -28,7 +28,7 @@ pub(in crate::search) struct Nodes {
 }
 
 impl Nodes {
-    /// The node before any choice.
+    /// Returns the one node before any choice.
     pub(in crate::search) fn root(spent: Spent) -> Self {
         Nodes {
             spent: vec![spent],

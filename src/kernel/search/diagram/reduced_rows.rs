@@ -68,8 +68,8 @@ impl Rows {
         self.spread(arithmetic, width, &places, &mut packed);
     }
 
-    /// Takes rows off what was packed, each coordinate at its place of those of a width, and nothing at the others; no rows where nothing
-    /// was packed, before the first variable of a part.
+    /// Reads packed rows, puts each coordinate at its place among `width` ones, and advances `packed` behind them. There are no rows if
+    /// nothing was packed, as before the first variable of a part.
     pub(super) fn spread(
         &mut self,
         arithmetic: &mut Arithmetic,

@@ -112,8 +112,8 @@ impl Spent {
         })
     }
 
-    /// Replaces the counts of the lanes by those of the variant: the external redundant constraints, which the searched state has beyond
-    /// the free one, and the harmful ones, which friction does not explain if the face that explains most takes moments.
+    /// Replaces the counts of the lanes by those of the variant. External redundant constraints are those that the searched state has
+    /// beyond the free one. Harmful ones are those that friction does not explain if the face that explains most takes moments.
     pub(in crate::search) fn settle(&mut self, roles: &[Role], limits: &Limits) {
         let free = self.counted_of_free(limits);
         let (mut state, mut common, mut harmless) = (0, free, None::<i32>);

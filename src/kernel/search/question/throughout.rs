@@ -73,7 +73,7 @@ pub enum PoseOnly {
     /// More equations than are expanded.
     #[error("the closure equations are too many to expand")]
     TooLarge,
-    /// An option that has the present joint's motion in the drawn pose alone.
+    /// An option that has the motion of the joint as built only in the drawn pose.
     #[error("{option} at {joint} does not follow the present joint")]
     Option {
         /// The joint.
@@ -168,7 +168,7 @@ impl Throughout {
         &self.columns[variable][choice]
     }
 
-    /// Returns whether the present joints have the same rank and the same kept motion in poses next to the drawn one.
+    /// Returns whether the joints as built have the same rank and the same kept motion in poses next to the drawn one.
     fn is_regular(&self, f: Field, rows: &ClosingRows<'_>) -> bool {
         let ranks = |order: usize| -> [usize; 2] {
             let present = self.columns.iter().filter_map(|choices| choices.first());
