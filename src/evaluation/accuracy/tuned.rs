@@ -64,18 +64,27 @@ fn tally(cases: &[Case], of: Elimination, tolerances: &[f64]) -> Vec<[usize; 2]>
     (0..tolerances.len()).map(at).collect()
 }
 
+/// Returns the first and the last number of the longest run of good numbers below `count`; of equally long runs the first one.
+pub(super) fn longest_run(count: usize, good: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+    let (mut best, mut begun) = (None::<(usize, usize)>, None);
+    for n in 0..count {
+        if !good(n) {
+            begun = None;
+            continue;
+        }
+        let from = *begun.get_or_insert(n);
+        if best.is_none_or(|(first, last)| n - from > last - first) {
+            best = Some((from, n));
+        }
+    }
+    best
+}
+
 /// The middle of the longest stretch of the largest numbers.
 fn middle_of_best(numbers: &[usize]) -> usize {
     let best = numbers.iter().max();
-    let (mut longest, mut begun) = (0..0, 0);
-    for (at, n) in numbers.iter().enumerate() {
-        if Some(n) != best {
-            begun = at + 1;
-        } else if at + 1 - begun > longest.len() {
-            longest = begun..at + 1;
-        }
-    }
-    longest.start + longest.len().saturating_sub(1) / 2
+    let run = longest_run(numbers.len(), |n| Some(&numbers[n]) == best);
+    run.map_or(0, |(first, last)| (first + last) / 2)
 }
 
 /// Every floating-point method at its best tolerance; the default one where no other is better.

@@ -1,0 +1,187 @@
+//! The conclusion of a study: what its tallies show, in words.
+
+use super::{Study, View, bound};
+use crate::accuracy::said::{Said, Tally};
+use crate::accuracy::timing::quantile;
+use crate::accuracy::tuned::longest_run;
+use crate::format::{duration, grouped, list, scientific};
+
+impl Study {
+    /// What came of it, from the data.
+    #[must_use]
+    pub fn conclusion(&self) -> String {
+        match self.view {
+            View::Regions => self.stretches(),
+            View::Shares => self.shares(),
+            View::Times => format!("{} {}", self.stretches(), self.times()),
+            View::Errors(degree) => self.errors(degree),
+        }
+    }
+
+    /// Which rows are always right, and where others are right as often as they ever are.
+    fn stretches(&self) -> String {
+        let (mut always, mut rest) = (Vec::new(), Vec::new());
+        for (name, tallies) in &self.rows {
+            let of: Vec<_> = self.asked_of(tallies).collect();
+            let share = |n: usize| of[n].1.percent(Said::Right);
+            let most = (0..of.len()).map(share).fold(0.0, f64::max);
+            let runs = longest_run(of.len(), |n| share(n) >= most);
+            let Some((first, last)) = runs else { continue };
+            let whole = first == 0 && last + 1 == of.len();
+            if whole && most >= 100.0 {
+                always.push(name.clone());
+                continue;
+            }
+            let [from, to] = [first, last].map(|n| self.value(of[n].0));
+            let place = match () {
+                () if whole => "throughout".to_owned(),
+                () if first == last => format!("at {from}"),
+                () => format!("from {from} to {to}"),
+            };
+            rest.push(format!("{name} {:.0} % {place}", most.floor()));
+        }
+        let told = if always.is_empty() {
+            "nothing".to_owned()
+        } else {
+            list(&always)
+        };
+        let rest = if rest.is_empty() {
+            String::new()
+        } else {
+            format!(" Right most often: {}.", list(&rest))
+        };
+        format!("Right in all cases throughout: {told}.{rest}")
+    }
+
+    /// What is said of each row over all values, and where most of it is wrong and sure.
+    fn shares(&self) -> String {
+        let told = self.rows.iter().map(|(name, tallies)| {
+            let mut sum = Tally::default();
+            for (n, of) in tallies.iter().flat_map(|t| t.of.iter().enumerate()) {
+                sum.of[n] += of;
+            }
+            let worst = self.asked_of(tallies).max_by(|a, b| {
+                let sure = |t: &Tally| t.percent(Said::Wrong);
+                sure(a.1).total_cmp(&sure(b.1))
+            });
+            let worst = worst.filter(|(_, t)| !t.wrong.is_empty()).map_or_else(String::new, |(x, t)| {
+                let (wrong, at) = (t.wrong.len(), self.value(x));
+                format!(" ({wrong} of {} at {at})", t.all())
+            });
+            let [right, open, hedged, sure] = [Said::Right, Said::Open, Said::Hedged, Said::Wrong]
+                .map(|s| format!("{:.1} %", sum.percent(s)));
+            format!(
+                "{name} right {right}, undecided {open}, wrong but said not exact {hedged}, wrong and sure {sure}{worst}"
+            )
+        });
+        let told: Vec<String> = told.collect();
+        format!("{}.", told.join("; "))
+    }
+
+    /// How long each row takes at the largest value it was asked about, and how that grows.
+    fn times(&self) -> String {
+        let told = self.rows.iter().filter_map(|(name, tallies)| {
+            let times = self
+                .asked_of(tallies)
+                .map(|(x, t)| (x, quantile(&t.seconds, 0.5)));
+            let times: Vec<(f64, f64)> = times.collect();
+            let (x1, y1) = *times.last()?;
+            let before = times.iter().rev().find(|(x, y)| x * 3.0 <= x1 && *y > 0.0);
+            let grows = before.map_or_else(String::new, |(x0, y0)| {
+                format!(
+                    ", growing with the power {:.1}",
+                    (y1 / y0).ln() / (x1 / x0).ln()
+                )
+            });
+            Some(format!("{name} {} at {x1}{grows}", duration(y1)))
+        });
+        format!("Times: {}.", told.collect::<Vec<_>>().join("; "))
+    }
+
+    /// Where each row has errors, how many more or fewer than the bound allows, and its time.
+    fn errors(&self, degree: u32) -> String {
+        let told = self.rows.iter().enumerate().map(|(n, (name, tallies))| {
+            let of: Vec<_> = self.asked_of(tallies).collect();
+            let wrong: Vec<_> = of.iter().filter(|(_, t)| !t.wrong.is_empty()).collect();
+            let some = |(bits, t): &&(f64, &Tally)| {
+                let all = grouped(t.all());
+                format!("{} of {all} at {bits} bits", t.wrong.len())
+            };
+            // The bound is of a probability: some more may be drawn, three deviations and one.
+            let above = |(b, t): &&(f64, &Tally)| {
+                #[allow(clippy::cast_precision_loss, reason = "cases are few")]
+                let [all, wrong] = [t.all(), t.wrong.len()].map(|n| n as f64);
+                let expected = bound(degree, *b) / 100.0 * all;
+                wrong > expected + 3.0 * expected.sqrt() + 1.0
+            };
+            let above = match wrong.iter().copied().any(|w| above(&w)) {
+                // The bound speaks of the first row.
+                _ if n > 0 => "",
+                true => " more than the bound allows,",
+                false => " within the bound,",
+            };
+            let each: Vec<String> = wrong.iter().map(some).collect();
+            let none = if each.is_empty() {
+                "none".to_owned()
+            } else {
+                list(&each)
+            };
+            let times: Vec<f64> = of.iter().map(|(_, t)| quantile(&t.seconds, 0.5)).collect();
+            let [least, most] = [0.0, 1.0].map(|at| duration(quantile(&times, at)));
+            format!("{name}: wrong {none},{above} in {least} to {most} whatever the prime")
+        });
+        format!("{}.", told.collect::<Vec<_>>().join("; "))
+    }
+
+    fn value(&self, x: f64) -> String {
+        match self.view {
+            View::Times => x.to_string(),
+            _ => scientific(x),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::said::Reply;
+
+    /// Ten cases at each of four values, of which so many are wrong and sure.
+    fn study(view: View, wrong: [usize; 4]) -> Study {
+        let study = Study {
+            name: "s",
+            title: "S",
+            axis: "x",
+            column: "x",
+            values: vec![1e-3, 1e-2, 1e-1, 1.0],
+            view,
+            advice: "",
+            rows: Vec::new(),
+        };
+        study.asked(["m"], 10, &mut |_, _, _| {}, |v, case| {
+            let said = if case < wrong[v] {
+                Said::Wrong
+            } else {
+                Said::Right
+            };
+            vec![Some(Reply::new(said, || format!("c{case}")))]
+        })
+    }
+
+    #[test]
+    fn conclusions_follow_from_the_tallies() {
+        let told = |wrong| study(View::Regions, wrong).conclusion();
+        assert_eq!(told([0; 4]), "Right in all cases throughout: m.");
+        let most = |rest: &str| {
+            format!("Right in all cases throughout: nothing. Right most often: m {rest}.")
+        };
+        assert_eq!(told([0, 0, 1, 0]), most("100 % from 1e−3 to 0.01"));
+        assert_eq!(told([4; 4]), most("60 % throughout"));
+        assert_eq!(
+            study(View::Shares, [0, 0, 3, 1]).conclusion(),
+            "m right 90.0 %, undecided 0.0 %, wrong but said not exact 0.0 %, wrong and sure 10.0 % (3 of 10 at 0.1)."
+        );
+        let csv = study(View::Shares, [0, 0, 3, 1]).csv();
+        assert!(csv.contains("m,1e-1,10,7,0,0,3,c0; c1; c2\n"), "{csv}");
+    }
+}
