@@ -30,6 +30,16 @@ pub struct Truth {
     pub finite: i64,
 }
 
+impl Truth {
+    /// Returns these figures.
+    pub(crate) const fn of(instantaneous: i64, finite: i64) -> Truth {
+        Truth {
+            instantaneous,
+            finite,
+        }
+    }
+}
+
 /// What an answer is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnswerVerdict {

@@ -48,10 +48,7 @@ pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
             cases.push(Case {
                 mechanism: mechanism.clone(),
                 state,
-                truth: Truth {
-                    instantaneous,
-                    finite,
-                },
+                truth: Truth::of(instantaneous, finite),
             });
         }
     }
@@ -66,15 +63,12 @@ pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
 #[must_use]
 pub fn generated(seed: u64) -> Vec<Case> {
     let mut cases = Vec::new();
-    let mut add = |mut mechanism: Mechanism, name: String, (instantaneous, finite)| {
+    let mut add = |mut mechanism: Mechanism, name: String, truth: Truth| {
         mechanism.name = name;
         cases.push(Case {
             mechanism,
             state: StateId::FREE,
-            truth: Truth {
-                instantaneous,
-                finite,
-            },
+            truth,
         });
     };
     let read =
@@ -88,10 +82,10 @@ pub fn generated(seed: u64) -> Vec<Case> {
     }
     for levels in 1..=3 {
         let text = toggles(levels, &mut Noise::new(seed, levels));
-        add(read(&text), format!("toggles {levels}"), (1, 0));
+        add(read(&text), format!("toggles {levels}"), Truth::of(1, 0));
         for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
             let name = format!("{kind:?} {levels}");
-            add(lattice::mechanism(kind, levels), name, (1, 1));
+            add(lattice::mechanism(kind, levels), name, Truth::of(1, 1));
         }
     }
     cases

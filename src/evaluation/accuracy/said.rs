@@ -34,10 +34,8 @@ impl Said {
     /// does not apply.
     fn of_method(method: &dyn MobilityMethod, m: &Mechanism, s: StateId, t: Truth) -> Option<Said> {
         if method.name() == "auto" {
-            let figures = (t.instantaneous, t.finite);
-            return Said::of_decision(decide(m, s).ok().as_ref(), figures)
-                .into_iter()
-                .max();
+            let found = Said::of_decision(decide(m, s).ok().as_ref(), t);
+            return found.into_iter().max();
         }
         let answer = method.answer(m, s);
         match &answer {
@@ -58,7 +56,7 @@ impl Said {
     /// W at the pose and finite mobility as decided, against the true ones. A geometry that is merely near gives no exact
     /// figures, nor does a motion that is followed.
     #[must_use]
-    pub fn of_decision(found: Option<&Decision>, truth: (i64, i64)) -> [Said; 2] {
+    pub fn of_decision(found: Option<&Decision>, truth: Truth) -> [Said; 2] {
         let Some(d) = found else {
             return [Said::Open; 2];
         };
@@ -66,11 +64,11 @@ impl Said {
         let (given, exact) = (d.verdict.is_decided(), d.verdict.word() != "near");
         let w = d.verdict.figures(d.verdict.rank()).0;
         [
-            Said::of(given, exact, is(w, truth.0)),
+            Said::of(given, exact, is(w, truth.instantaneous)),
             Said::of(
                 given && !d.finite.is_undecided(),
                 exact && d.finite.is_proven(),
-                is(d.finite.mobility, truth.1),
+                is(d.finite.mobility, truth.finite),
             ),
         ]
     }

@@ -1,5 +1,6 @@
 //! Mechanisms of special geometry with one joint off, made from a seed and written with so many decimals.
 
+use super::Truth;
 use super::change::{Noise, at_its_word};
 use crate::file::text::mechanism_from_str;
 use crate::geom::rigid::RigidMotion;
@@ -45,13 +46,13 @@ impl SpecialKind {
         }
     }
 
-    /// (W at the pose, finite mobility), with the offset or without it. Parallel rods stay shaky whatever their lengths.
+    /// Returns the true figures, with the offset or without it. Parallel rods of any length stay shaky.
     #[must_use]
-    pub fn figures(self, off: bool) -> (i64, i64) {
+    pub fn figures(self, off: bool) -> Truth {
         match (self, off) {
-            (_, false) => (1, 1),
-            (SpecialKind::Rods, true) => (1, 0),
-            (_, true) => (0, 0),
+            (_, false) => Truth::of(1, 1),
+            (SpecialKind::Rods, true) => Truth::of(1, 0),
+            (_, true) => Truth::of(0, 0),
         }
     }
 

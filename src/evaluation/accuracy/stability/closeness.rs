@@ -38,13 +38,6 @@ const BUILT_IN: [(&str, Place); 4] = [
     ("collinear-truss", ("1-2", false, 1, 60)),
 ];
 
-fn truth((instantaneous, finite): (i64, i64)) -> Truth {
-    Truth {
-        instantaneous,
-        finite,
-    }
-}
-
 impl Special {
     fn built_in(cases: &[Case]) -> impl Iterator<Item = Special> + '_ {
         BUILT_IN
@@ -58,7 +51,7 @@ impl Special {
                     axis,
                     coordinate,
                     unit,
-                    truth: [case.truth, truth((0, 0))],
+                    truth: [case.truth, Truth::of(0, 0)],
                 })
             })
     }
@@ -71,7 +64,7 @@ impl Special {
             axis,
             coordinate,
             unit: 1,
-            truth: [false, true].map(|off| truth(kind.figures(off))),
+            truth: [false, true].map(|off| kind.figures(off)),
         })
     }
 
@@ -208,10 +201,7 @@ pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) ->
             &mut noise,
         );
         let found = decide(&m, case.state).ok();
-        let of = Said::of_decision(
-            found.as_ref(),
-            (case.truth.instantaneous, case.truth.finite),
-        );
+        let of = Said::of_decision(found.as_ref(), case.truth);
         let closure = Closure::new(&Reals, &m, case.state).ok();
         let svd = closure.map(|c| Elimination::Svd.mobilities(&c, &TOLERANCES));
         let svd = [0, 1].map(|n| {

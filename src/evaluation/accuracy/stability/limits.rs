@@ -20,12 +20,6 @@ use crate::rank::numeric::Elimination;
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
-/// The figures of rows of four-bars and of lazy tongs.
-const ONE: Truth = Truth {
-    instantaneous: 1,
-    finite: 1,
-};
-
 /// Rows of four-bars and lazy tongs of 1 to 200 contours. A method that takes long is not asked about longer ones.
 pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
     const SIZES: [u32; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
@@ -58,7 +52,7 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
                 clock: effort.clock,
                 repeat: if v < 4 { 5 } else { 1 },
             };
-            let all = [(&m, StateId::FREE, ONE)];
+            let all = [(&m, StateId::FREE, Truth::of(1, 1))];
             let (reply, time) = watch.time(|| Reply::of_method(*method, &all));
             if time.median > patience {
                 slow.insert((method.name(), case));
@@ -120,7 +114,7 @@ pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
         advice: "Where auto leaves a range beyond the second order, the motion that is left cannot be told from none: measure it.",
         rows: Vec::new(),
     };
-    let truth = Truth { finite: 0, ..ONE };
+    let truth = Truth::of(1, 0);
     let names = registry::ALL.map(MobilityMethod::name);
     study.asked(names, each, progress, |v, case| {
         let text = toggles(v + 1, &mut Noise::new(effort.seed, 100 * (v + 1) + case));
@@ -156,6 +150,10 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         rows: Vec::new(),
     };
     let each = if effort.quick { 500 } else { 4_000 };
+    let watch = Stopwatch {
+        clock: effort.clock,
+        repeat: 1,
+    };
     study.asked(
         ["random points", "built-in mechanisms"],
         each,
@@ -170,11 +168,12 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             };
             let exact = ExactField::of_prime(prime);
             let ask = |m: &Mechanism, state, w: i64| {
-                // A divisor may vanish: the program then takes another prime.
-                let begun = (effort.clock)();
-                let closure = Closure::new(&exact, m, state).ok()?;
-                let free = closure.columns.len() - modular::rank(&exact, &closure);
-                let seconds = ((effort.clock)() - begun).as_secs_f64();
+                let (free, time) = watch.time(|| {
+                    // A divisor may vanish: the program then takes another prime.
+                    let closure = Closure::new(&exact, m, state).ok()?;
+                    Some(closure.columns.len() - modular::rank(&exact, &closure))
+                });
+                let (free, seconds) = (free?, time.median);
                 let said = Said::of(true, true, i64::try_from(free) == Ok(w));
                 let reply = Reply::new(said, || format!("{} modulo {prime}", m.name));
                 Some(Reply { seconds, ..reply })
