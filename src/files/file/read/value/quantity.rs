@@ -88,6 +88,21 @@ impl Place<'_> {
         self.optional(k, c, unit, Bound::NotNegative)
     }
 
+    /// Returns a number of items from 1 to `most`; reports any other.
+    pub(crate) fn number_of(
+        &self,
+        what: &'static str,
+        count: impl Copy + ToString + TryInto<usize>,
+        most: usize,
+        allowed: &'static str,
+    ) -> Option<usize> {
+        let found = count.try_into().ok().filter(|n| (1..=most).contains(n));
+        if found.is_none() {
+            self.bad(what, count, allowed);
+        }
+        found
+    }
+
     /// Three numbers.
     pub(crate) fn reals(&self, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
         self.vector(v).map(|e| e.to_f64() * unit)

@@ -160,11 +160,11 @@ fn pieces(t: &Place<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -
         }
     }
     let at = t.key("feed_moments");
-    if list.is_empty() || list.len() > PIECES {
-        at.bad("number of pieces", list.len(), "1 to 1000");
-        return Push::Pieces(Vec::new());
-    }
     let mut pieces: Vec<(f64, f64)> = Vec::new();
+    let count = at.number_of("number of pieces", list.len(), PIECES, "1 to 1000");
+    if count.is_none() {
+        return Push::Pieces(pieces);
+    }
     for (at, [from, moment]) in at.all(list) {
         let (begins, at) = (at.index(0), at.index(1));
         let from = begins.angle("feed_moments", from);

@@ -32,11 +32,8 @@ fn diameters(t: &Place<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f
 fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
     let (what, allowed) = ("number of diameters", "1 to 1000");
     let s = match entry {
-        Diameters::List(list) if list.is_empty() || list.len() > MOST => {
-            at.bad(what, list.len(), allowed);
-            return None;
-        }
         Diameters::List(list) => {
+            at.number_of(what, list.len(), MOST, allowed)?;
             let each = at.all(list);
             let each = each.map(|(at, c)| at.value("diameter", c, unit, Bound::Positive));
             return Some(each.collect());
@@ -49,11 +46,7 @@ fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
         let allowed = "one not below `from`";
         at.key("to").bad("the greatest diameter", to, allowed);
     }
-    let count = usize::try_from(s.count).ok();
-    let Some(count) = count.filter(|n| (1..=MOST).contains(n)) else {
-        at.key("count").bad(what, s.count, allowed);
-        return None;
-    };
+    let count = at.key("count").number_of(what, s.count, MOST, allowed)?;
     let step = (to - from) / (count.max(2) - 1) as f64;
     // Steps in the unit of the file, so that a list of them says the same.
     let each = (0..count).map(|i| (from + step * i as f64) * unit);

@@ -133,10 +133,12 @@ fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_
 fn stroke(s: &StrokeEntry, at: &Place<'_>) -> Stroke {
     let from = at.key("from").position(&s.from);
     let to = at.key("to").position(&s.to);
-    let steps = usize::try_from(s.steps).unwrap_or(0);
-    if !(1..=MAX_STEPS).contains(&steps) {
-        let allowed = "a whole number from 1 to 100000";
-        at.key("steps").bad("number of steps", s.steps, allowed);
+    let allowed = "a whole number from 1 to 100000";
+    let at = at.key("steps");
+    let steps = at.number_of("number of steps", s.steps, MAX_STEPS, allowed);
+    Stroke {
+        from,
+        to,
+        steps: steps.unwrap_or(0),
     }
-    Stroke { from, to, steps }
 }

@@ -35,11 +35,11 @@ pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     let given = beside.into_iter().filter(|(_, given)| *given);
     given.for_each(|(k, _)| t.excludes(k, "programme"));
     let at = t.key("programme");
-    if list.is_empty() || list.len() > MOST {
-        at.bad("number of steps", list.len(), "1 to 10000");
-        return Vec::new();
-    }
     let mut steps = Vec::new();
+    let count = at.number_of("number of steps", list.len(), MOST, "1 to 10000");
+    if count.is_none() {
+        return steps;
+    }
     for (at, text) in at.all(list) {
         let found = step(text);
         if found.is_none() {
@@ -55,14 +55,11 @@ pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
 fn swings(t: &Place<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeStep> {
     let ways = [("stepwise", true), ("reversing", false)];
     let stepwise = t.word("motion", &e.motion, &ways);
-    let stated = e.swings.unwrap_or(8);
-    let count = usize::try_from(stated).ok();
-    let Some(count) = count.filter(|n| (1..=MOST).contains(n)) else {
-        let allowed = "a whole number from 1 to 10000";
-        t.key("swings").bad("number of swings", stated, allowed);
-        return Vec::new();
-    };
-    regular(stepwise, count, dwell.filter(|d| *d > 0.0))
+    let (at, allowed) = (t.key("swings"), "a whole number from 1 to 10000");
+    let count = at.number_of("number of swings", e.swings.unwrap_or(8), MOST, allowed);
+    count.map_or_else(Vec::new, |n| {
+        regular(stepwise, n, dwell.filter(|d| *d > 0.0))
+    })
 }
 
 /// A step by its words: "1" or "2", a disc swinging, or "wait 0.3", a dwell in s.
