@@ -17,8 +17,8 @@ use crate::file::read::value::{ENTRIES, knowing, length_unit};
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
 use crate::file::read::workload::loads::loads;
-use crate::file::schema::MechanismFile;
-use crate::file::{Finding, Findings};
+use crate::file::schema::{ClaimEntry, MechanismFile};
+use crate::file::{Finding, Findings, Place};
 use crate::format::disjunction;
 use crate::geom::expr::Expr;
 use crate::model::claim::{Claim, Topic};
@@ -33,7 +33,7 @@ use value::tolerance::tolerance;
 
 /// The claims of a file; one of an unknown topic is a problem.
 pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
-    let claim = |(at, c): (crate::file::Place<'_>, &crate::file::schema::ClaimEntry)| {
+    let claim = |(at, c): (Place<'_>, &ClaimEntry)| {
         let topic = Topic::ALL.into_iter().find(|t| t.word() == c.topic);
         if topic.is_none() {
             let known = disjunction(Topic::ALL.map(Topic::word));
@@ -144,24 +144,18 @@ fn points(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Po
 }
 
 fn mode(file: &MechanismFile, out: &Findings) -> Mode {
-    match file.mode.as_deref().unwrap_or("spatial") {
-        "planar" => {
-            let at = out.at("plane_normal");
-            let given = file.plane_normal.as_ref().map(|v| at.direction(v));
-            let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
-            if normal.iter().all(|c| c.to_f64() == 0.0) {
-                let (joint, what) = ("of the plane".to_owned(), "normal");
-                at.add(ProblemKind::ZeroVector { joint, what });
-            }
-            Mode::Planar { normal }
-        }
-        other => {
-            if other != "spatial" {
-                out.at("mode").unknown("mode", other, ["spatial", "planar"]);
-            }
-            Mode::Spatial
-        }
+    let words = [("spatial", false), ("planar", true)];
+    if !out.whole().word("mode", &file.mode, &words) {
+        return Mode::Spatial;
     }
+    let at = out.at("plane_normal");
+    let given = file.plane_normal.as_ref().map(|v| at.direction(v));
+    let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
+    if normal.iter().all(|c| c.to_f64() == 0.0) {
+        let (joint, what) = ("of the plane".to_owned(), "normal");
+        at.add(ProblemKind::ZeroVector { joint, what });
+    }
+    Mode::Planar { normal }
 }
 
 fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Expected> {

@@ -1,10 +1,10 @@
 //! The links, each of which hangs on the frame; and the contours that the designer chose.
 
 use crate::closure::contour::closed_walk;
-use crate::file::Findings;
 use crate::file::problem::ProblemKind;
 use crate::file::read::workload::loads::mass;
 use crate::file::schema::{MechanismFile, Words};
+use crate::file::{Findings, Place};
 use crate::model::mechanism::{JointId, Link, Mechanism, Role, StateId};
 use std::collections::BTreeSet;
 
@@ -95,7 +95,7 @@ pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
 }
 
 pub(crate) fn contours(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Vec<Vec<JointId>> {
-    let contour = |joints: &[String], at: crate::file::Place<'_>| {
+    let contour = |joints: &[String], at: Place<'_>| {
         let named = at.all(joints).filter_map(|(at, id)| at.joint(m, id));
         let named: Vec<JointId> = named.collect();
         if named.len() == joints.len() && closed_walk(m, &named).is_none() {

@@ -90,7 +90,7 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
         return;
     };
     let points = mechanism.joints.iter().map(|j| real(&j.frame.point));
-    let size = diagonal(points.collect_vec().iter().copied());
+    let size = diagonal(points);
     for ((at, &(a, b)), miss) in at.all(pairs).zip(misses) {
         if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
             let [first, second] = [a, b].map(|j| mechanism.joints[j].id.clone());

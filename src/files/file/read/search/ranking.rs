@@ -24,23 +24,12 @@ pub(crate) fn ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Op
     let entry = file.ranking.as_ref()?;
     let at = &out.at("ranking");
     Some(Ranking {
-        order: order(entry, at),
+        order: at.word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
         clearance: clearance(entry, at),
         terms: terms(entry, &at.key("terms")),
         limits: limits(entry, &at.key("limits")),
         states: ranked_states(entry, m, &at.key("states")),
     })
-}
-
-/// How terms are weighed against each other.
-fn order(entry: &RankingEntry, at: &Place<'_>) -> Order {
-    let word = entry.order.as_deref().unwrap_or("weighted");
-    let order = Order::ALL.iter().find(|(_, w)| *w == word);
-    if order.is_none() {
-        at.key("order")
-            .unknown("order", word, Order::ALL.iter().map(|(_, w)| w));
-    }
-    order.map_or(Order::Weighted, |(o, _)| *o)
 }
 
 /// How clearances add up.
