@@ -96,7 +96,7 @@ pub(crate) fn read(
                 let what = "deformable bodies are no links; left out";
                 robot.report.approximate(&section.label(), what);
             }
-            other if SECTIONS.split(' ').any(|s| s == other) => robot.report.drop(other, None),
+            other if section.is_one_of(SECTIONS) => robot.report.drop(other, None),
             _ => leave_out(section, None, &mut robot),
         }
     }

@@ -47,7 +47,7 @@ pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<Tol
     let mut unit = (root.name() == "mujoco").then(|| degrees.clone());
     let mut stack = vec![root];
     while let Some(e) = stack.pop() {
-        if OTHERS.split(' ').any(|o| o == e.name()) {
+        if e.is_one_of(OTHERS) {
             continue;
         }
         if e.name() == "compiler" {

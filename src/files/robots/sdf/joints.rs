@@ -132,12 +132,11 @@ fn joint_type(e: Element<'_>, word: &str) -> Read<JointType> {
 fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
     let known = "pose parent child axis axis2 screw_thread_pitch thread_pitch";
     let within = "xyz limit mimic drake:mimic use_parent_model_frame";
-    let among = |words: &str, e: &Element<'_>| words.split(' ').any(|w| w == e.name());
-    let own = e.children().filter(|c| !among(known, c));
+    let own = e.children().filter(|c| !c.is_one_of(known));
     let axes = e.children();
     let axes = axes.filter(|c| ["axis", "axis2"].contains(&c.name()));
     let of_axes = axes.flat_map(Element::children);
-    for c in own.chain(of_axes.filter(|c| !among(within, c))) {
+    for c in own.chain(of_axes.filter(|c| !c.is_one_of(within))) {
         robot.report.drop(c.name(), Some(name));
     }
 }

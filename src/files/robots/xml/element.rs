@@ -35,6 +35,11 @@ impl<'a> Element<'a> {
         &self.node().name
     }
 
+    /// Returns whether the element has one of several names, which are separated by spaces.
+    pub(in crate::robots) fn is_one_of(self, names: &str) -> bool {
+        names.split(' ').any(|n| n == self.name())
+    }
+
     /// Where the value of an attribute stands in the file.
     pub(in crate::robots) fn value_span(self, name: &str) -> Option<Range<usize>> {
         let found = self.node().find(name)?;
