@@ -47,9 +47,14 @@ pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> 
         let bytes = bytes.len();
         return Err(ProblemKind::TooLarge { bytes, limit }.at(name, "", None));
     }
+    utf8(bytes).map_err(|problem| problem.at(name, "", None))
+}
+
+/// Returns bytes as text.
+pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
     std::str::from_utf8(bytes).map_err(|e| {
         let at = e.valid_up_to();
-        ProblemKind::NotUtf8 { at }.at(name, "", None)
+        ProblemKind::NotUtf8 { at }
     })
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod element;
 
 use crate::file::problem::ProblemKind;
+use crate::file::text;
 use crate::geom::vector::Vector;
 use crate::robots::problem::{Read, too_deep, too_large, too_many, whole};
 use quick_xml::Reader;
@@ -132,10 +133,7 @@ pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Read<String> {
     if bytes.len() > MAX_BYTES {
         return Err(too_large(bytes.len(), MAX_BYTES).at(name, "", None));
     }
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        let at = e.valid_up_to();
-        ProblemKind::NotUtf8 { at }.at(name, "", None)
-    })?;
+    let text = text::utf8(bytes).map_err(|problem| problem.at(name, "", None))?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())
 }
 

@@ -7,6 +7,7 @@
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::problem::ProblemKind;
+use crate::file::text::utf8;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
@@ -25,11 +26,7 @@ pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
         if bytes.len() > MAX_BYTES {
             return Err(too_large(bytes.len(), MAX_BYTES));
         }
-        let text = std::str::from_utf8(bytes).map_err(|e| {
-            let at = e.valid_up_to();
-            ProblemKind::NotUtf8 { at }
-        })?;
-        shapes(&parse(name, text).map_err(whole)?, robot)
+        shapes(&parse(name, utf8(bytes)?).map_err(whole)?, robot)
     };
     added().map_err(|p| p.at(name, "", None))
 }
