@@ -262,9 +262,7 @@ impl<'a> Projection<'a> {
     fn is_told(&self, row: &PointEquation, normals: &[Vector]) -> Option<bool> {
         let a = self.gradient(row, normals);
         let before = norm(&a);
-        // Of what follows from others nothing is left but rounding.
-        (before == 0.0 || norm(&self.free_of(&a)) < DEPENDENT * before)
-            .then(|| self.holds(row, normals, before))
+        is_dependent(before, &self.free_of(&a)).then(|| self.holds(row, normals, before))
     }
 
     /// Whether a row of some size holds, but for rounding.
@@ -310,11 +308,11 @@ impl<'a> Projection<'a> {
 
     /// Puts one row, and gives the square of the move; none where it contradicts those taken, or asks for more than `most` for sure.
     fn put(&mut self, row: &PointEquation, normals: &[Vector], most: f64) -> Option<f64> {
-        if let Some(holds) = self.is_told(row, normals) {
-            return holds.then_some(0.0);
-        }
         let a = self.gradient(row, normals);
         let (before, free) = (norm(&a), self.free_of(&a));
+        if is_dependent(before, &free) {
+            return self.holds(row, normals, before).then_some(0.0);
+        }
         let residue = self.residue(row, normals);
         // Whatever is left across what is decided, it is no longer than what is left in free coordinates.
         if (residue / norm(&free)).powi(2) > most {
@@ -341,6 +339,11 @@ impl<'a> Projection<'a> {
         self.square += step * step;
         Some(step * step)
     }
+}
+
+/// Returns whether other rows decide a row of the given size: then only rounding errors are left of it in the free coordinates.
+fn is_dependent(size: f64, free: &[(usize, f64)]) -> bool {
+    size == 0.0 || norm(free) < DEPENDENT * size
 }
 
 /// Adds up the coefficients of each coordinate; what cancels to rounding is left out.
