@@ -69,7 +69,7 @@ impl Noise {
     }
 
     /// A whole number of at most so many bits, 63 at most.
-    pub(crate) fn whole(&mut self, bits: u32) -> i64 {
+    pub(crate) fn draw_integer(&mut self, bits: u32) -> i64 {
         (self.0.next_u64() >> (64 - bits.min(63))).cast_signed()
     }
 }
@@ -115,7 +115,7 @@ mod tests {
         let m = mechanism_from_str("bennett.toml", text).expect("valid");
         let x = |m: &Mechanism| m.joints[0].frame.point[0].to_f64();
         assert!((x(&resized(&m, -6)) - 40e-6).abs() < 1e-20);
-        let drawn = |seed| Noise::new(seed, 0).whole(61);
+        let drawn = |seed| Noise::new(seed, 0).draw_integer(61);
         assert!(drawn(1) < 1 << 61 && drawn(1) == drawn(1) && drawn(1) != drawn(2));
     }
 }

@@ -129,7 +129,7 @@ pub fn ladder(contours: usize) -> Mechanism {
     let mut noise = Noise::new(1, 0);
     let mut file = Sketch::default();
     let mut pin = |a: usize, b: usize| {
-        let at = [(); 2].map(|()| noise.whole(10));
+        let at = [(); 2].map(|()| noise.draw_integer(10));
         file.pin([&a.to_string(), &b.to_string()], at);
     };
     for (a, b) in [(0, 1), (1, 3), (3, 2), (2, 0)] {

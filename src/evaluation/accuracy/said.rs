@@ -135,13 +135,13 @@ impl Tally {
     }
 
     /// All that were asked.
-    pub(crate) fn all(&self) -> usize {
+    pub(crate) fn total(&self) -> usize {
         self.of.iter().sum()
     }
 
     /// The share of one of [`Said`], in per cent; 0 of none.
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     pub(crate) fn percent(&self, said: Said) -> f64 {
-        100.0 * self.of[said as usize] as f64 / self.all().max(1) as f64
+        100.0 * self.of[said as usize] as f64 / self.total().max(1) as f64
     }
 }

@@ -161,7 +161,7 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         |v, i| {
             let mut noise = Noise::new(effort.seed, 64 * i + v);
             let prime = loop {
-                let drawn = 1 | 1 << (BITS[v] - 1) | noise.whole(BITS[v]).unsigned_abs();
+                let drawn = 1 | 1 << (BITS[v] - 1) | noise.draw_integer(BITS[v]).unsigned_abs();
                 if is_prime(drawn) {
                     break drawn;
                 }
@@ -183,7 +183,7 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
                 let [x, y, _] = &mut joint.frame.point;
                 [x, y]
                     .into_iter()
-                    .for_each(|x| *x = Expr::from(noise.whole(61)));
+                    .for_each(|x| *x = Expr::from(noise.draw_integer(61)));
             }
             let case = cases.get(i % cases.len().max(1));
             vec![

@@ -102,7 +102,7 @@ impl Study {
         heads.extend(timed.then_some("median_seconds"));
         let rows = self.rows.iter().flat_map(|(name, tallies)| {
             self.asked_of(tallies).map(move |(x, t)| {
-                let mut row = vec![name.clone(), format!("{x:e}"), t.all().to_string()];
+                let mut row = vec![name.clone(), format!("{x:e}"), t.total().to_string()];
                 row.extend(t.of.map(|n| n.to_string()));
                 row.push(t.wrong.join("; ").replace('\n', " "));
                 row.extend(timed.then(|| format!("{:.3e}", quantile(&t.seconds, 0.5))));
@@ -171,7 +171,7 @@ impl Study {
 
     fn asked_of<'a>(&'a self, of: &'a [Tally]) -> impl Iterator<Item = (f64, &'a Tally)> {
         let values = self.values.iter().copied().zip(of);
-        values.filter(|(_, t)| t.all() > 0)
+        values.filter(|(_, t)| t.total() > 0)
     }
 
     fn chart(&self, subtitle: String, up: &str, scale: Scale, series: Vec<Series>) -> Chart {
@@ -189,7 +189,7 @@ impl Study {
 
     fn regions(&self) -> Bands {
         let kind = |t: &Tally| match t.percent(Said::Right) {
-            _ if t.all() == 0 => VerdictKind::None,
+            _ if t.total() == 0 => VerdictKind::None,
             100.0 => VerdictKind::Good,
             right if right + t.percent(Said::Open) >= 90.0 => VerdictKind::Warn,
             _ => VerdictKind::Bad,

@@ -66,7 +66,7 @@ impl Study {
             });
             let worst = worst.filter(|(_, t)| !t.wrong.is_empty()).map_or_else(String::new, |(x, t)| {
                 let (wrong, at) = (t.wrong.len(), self.value(x));
-                format!(" ({wrong} of {} at {at})", t.all())
+                format!(" ({wrong} of {} at {at})", t.total())
             });
             let [right, open, hedged, sure] = [Said::Right, Said::Open, Said::Hedged, Said::Wrong]
                 .map(|s| format!("{:.1} %", sum.percent(s)));
@@ -104,13 +104,13 @@ impl Study {
             let of: Vec<_> = self.asked_of(tallies).collect();
             let wrong: Vec<_> = of.iter().filter(|(_, t)| !t.wrong.is_empty()).collect();
             let some = |(bits, t): &&(f64, &Tally)| {
-                let all = grouped(t.all());
+                let all = grouped(t.total());
                 format!("{} of {all} at {bits} bits", t.wrong.len())
             };
             // The bound is of a probability: some more may be drawn, three deviations and one.
             let above = |(b, t): &&(f64, &Tally)| {
                 #[allow(clippy::cast_precision_loss, reason = "cases are few")]
-                let [all, wrong] = [t.all(), t.wrong.len()].map(|n| n as f64);
+                let [all, wrong] = [t.total(), t.wrong.len()].map(|n| n as f64);
                 let expected = bound(degree, *b) / 100.0 * all;
                 wrong > expected + 3.0 * expected.sqrt() + 1.0
             };
