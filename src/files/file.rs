@@ -69,20 +69,20 @@ impl Findings {
     /// Tells of names that no expression had.
     pub(crate) fn tell_unused(&self) {
         for name in self.names().filter(|n| !self.used.borrow().contains(*n)) {
-            let at = self.at("parameter").key(name);
+            let at = self.key("parameter").key(name);
             at.add(ProblemKind::UnusedParameter { name: name.into() });
         }
     }
 
     /// The file as a whole.
-    pub(crate) fn whole(&self) -> Place<'_> {
+    pub(crate) fn root(&self) -> Place<'_> {
         let path = Vec::new();
         Place { path, out: self }
     }
 
     /// A key of the file.
-    pub(crate) fn at(&self, key: &str) -> Place<'_> {
-        self.whole().key(key)
+    pub(crate) fn key(&self, key: &str) -> Place<'_> {
+        self.root().key(key)
     }
 
     /// How many there are.
@@ -133,7 +133,7 @@ impl<'f> Place<'f> {
     }
 
     /// The entries of the list that stands here, each with its place.
-    pub(crate) fn all<'e, T>(
+    pub(crate) fn entries<'e, T>(
         &self,
         list: &'e [T],
     ) -> impl Iterator<Item = (Place<'f>, &'e T)> + use<'f, 'e, T> {
@@ -152,7 +152,7 @@ impl<'f> Place<'f> {
         if count > limit {
             self.add(ProblemKind::TooMany { what, count, limit });
         }
-        self.all(&list[..count.min(limit)])
+        self.entries(&list[..count.min(limit)])
     }
 
     /// Tells a problem.

@@ -25,10 +25,10 @@ pub fn costs_from_str(
         let message = format!(
             "{why}; each line is a name and a number, such as spherical = 2 (`ozols show costs` prints them all)"
         );
-        ProblemKind::Syntax { message }.at(name, text, e.span())
+        ProblemKind::Syntax { message }.in_file(name, text, e.span())
     })?;
     let out = Findings::default();
-    let spec = costs(&stated, mechanism, &out.whole());
+    let spec = costs(&stated, mechanism, &out.root());
     let located = |found| ImportError::located(name, text, false, found);
     out.unless(spec).map_err(located)
 }

@@ -14,7 +14,7 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 /// Returns a problem for each list of a document whose length its schema excludes, with the path of the list.
 pub(crate) fn wrong_lengths(document: &Value) -> Vec<Finding> {
     let out = Findings::default();
-    visit(&SCHEMA, document, "", &out.whole());
+    visit(&SCHEMA, document, "", &out.root());
     out.told()
 }
 
@@ -29,7 +29,7 @@ fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
                 (least..=most).contains(&items.len())
             });
             if let Some(schema) = fit.first().and_then(|s| s.get("items")) {
-                at.all(items)
+                at.entries(items)
                     .for_each(|(at, item)| visit(schema, item, owner, &at));
             } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
                 let (list, count) = (name(&at.path, owner), items.len());

@@ -10,7 +10,7 @@ pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     let one = |v: &[Coordinate; 3]| {
         let out = knowing(file);
         let before = out.count();
-        let read = out.whole().vector(v);
+        let read = out.root().vector(v);
         (out.count() == before).then(|| read.map(|e| e.to_f64()))
     };
     [

@@ -202,7 +202,7 @@ pub enum ProblemKind {
 
 impl ProblemKind {
     /// Returns the problem as the one of a file, where it stands there.
-    pub(crate) fn at(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
+    pub(crate) fn in_file(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
         let (file, text) = (file.to_owned(), text.to_owned());
         let problems = vec![Problem { kind: self, span }];
         ImportError {

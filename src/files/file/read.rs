@@ -48,7 +48,10 @@ pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
             evidence: c.evidence.clone(),
         })
     };
-    out.at("claim").all(&file.claim).filter_map(claim).collect()
+    out.key("claim")
+        .entries(&file.claim)
+        .filter_map(claim)
+        .collect()
 }
 
 /// Refuses a file of too many entries before any of them is read.
@@ -133,7 +136,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
 
 fn points(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<PointOfInterest> {
     let mut points = Vec::with_capacity(file.point.len());
-    for (i, (at, entry)) in out.at("point").all(&file.point).enumerate() {
+    for (i, (at, entry)) in out.key("point").entries(&file.point).enumerate() {
         let twice = file.point[..i].iter().any(|p| p.id == entry.id);
         at.check_id("point", &entry.id, twice);
         let (id, point) = (entry.id.clone(), at.key("point").vector(&entry.point));
@@ -145,10 +148,10 @@ fn points(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Po
 
 fn mode(file: &MechanismFile, out: &Findings) -> Mode {
     let words = [("spatial", false), ("planar", true)];
-    if !out.whole().word("mode", &file.mode, &words) {
+    if !out.root().word("mode", &file.mode, &words) {
         return Mode::Spatial;
     }
-    let at = out.at("plane_normal");
+    let at = out.key("plane_normal");
     let given = file.plane_normal.as_ref().map(|v| at.direction(v));
     let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
     if normal.iter().all(|c| c.to_f64() == 0.0) {
@@ -160,7 +163,7 @@ fn mode(file: &MechanismFile, out: &Findings) -> Mode {
 
 fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<Expected> {
     let mut list = Vec::new();
-    for (at, e) in out.at("expected").all(&file.expected) {
+    for (at, e) in out.key("expected").entries(&file.expected) {
         let state = e.state.clone().unwrap_or_else(|| "free".to_owned());
         if !mechanism.states.contains(&state) {
             at.key("state").unknown("state", &state, &mechanism.states);
@@ -194,7 +197,7 @@ fn size(m: &Mechanism, out: &Findings) -> bool {
         let columns: usize = joints().map(|j| j.joint_type.freedoms().len()).sum();
         if dim * contours * columns > ENTRIES {
             fits = false;
-            out.whole().add(ProblemKind::TooEntangled {
+            out.root().add(ProblemKind::TooEntangled {
                 state: name.clone(),
                 rows: dim * contours,
                 columns,

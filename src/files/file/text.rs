@@ -45,9 +45,9 @@ pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> 
     let limit = MAX_BYTES;
     if bytes.len() > limit {
         let bytes = bytes.len();
-        return Err(ProblemKind::TooLarge { bytes, limit }.at(name, "", None));
+        return Err(ProblemKind::TooLarge { bytes, limit }.in_file(name, "", None));
     }
-    utf8(bytes).map_err(|problem| problem.at(name, "", None))
+    utf8(bytes).map_err(|problem| problem.in_file(name, "", None))
 }
 
 /// Returns bytes as text.
@@ -65,7 +65,7 @@ pub fn read<T>(
     make: impl FnOnce(&MechanismFile) -> Result<T, Vec<Finding>>,
 ) -> Result<T, ImportError> {
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        return Err(ProblemKind::Empty.at(name, text, None));
+        return Err(ProblemKind::Empty.in_file(name, text, None));
     }
     let json = is_json(name);
     let located = |found| ImportError::located(name, text, json, found);
@@ -81,7 +81,7 @@ pub fn read<T>(
     };
     let mut file = file.map_err(|(message, span)| {
         let message = with_remedy(message);
-        ProblemKind::Syntax { message }.at(name, text, span)
+        ProblemKind::Syntax { message }.in_file(name, text, span)
     })?;
     digits::keep(&mut file, text, json);
     // Written out they are no TOML and no JSON: only what is escaped can hold any.
@@ -173,7 +173,7 @@ const PROSE: [&str; 3] = ["description", "sources", "assumed"];
 pub(crate) fn controls(file: &MechanismFile) -> Vec<Finding> {
     let out = Findings::default();
     if let Ok(value) = serde_json::to_value(file) {
-        below(&value, &out.whole());
+        below(&value, &out.root());
     }
     out.told()
 }
@@ -181,7 +181,7 @@ pub(crate) fn controls(file: &MechanismFile) -> Vec<Finding> {
 fn below(value: &Value, at: &Place<'_>) {
     match value {
         Value::String(text) => check(text, at),
-        Value::Array(all) => at.all(all).for_each(|(at, value)| below(value, &at)),
+        Value::Array(all) => at.entries(all).for_each(|(at, value)| below(value, &at)),
         Value::Object(all) => {
             for (key, value) in all {
                 check(key, at);

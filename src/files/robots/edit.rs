@@ -4,7 +4,7 @@ use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::mechanism::series_of_single_joints::unique;
-use crate::robots::problem::{Read, whole};
+use crate::robots::problem::{Read, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -130,7 +130,11 @@ impl<'a> Edits<'a> {
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {
             let source = &sources[*source];
             let message = "the change is in a file that is included; put the files together, for example by saving the model from MuJoCo as XML, or change joints of the main file (--at)";
-            return Err(whole(message).at(&source.name, &source.text, Some(span.clone())));
+            return Err(syntax_problem(message).in_file(
+                &source.name,
+                &source.text,
+                Some(span.clone()),
+            ));
         }
         // Stable: what stands at one place keeps its order.
         self.list.sort_by_key(|(_, span, _)| span.start);
@@ -138,7 +142,11 @@ impl<'a> Edits<'a> {
         for (_, span, by) in &self.list {
             if span.start < at {
                 let message = "two changes meet in one place; make them one at a time (--at)";
-                return Err(whole(message).at(&sources[0].name, text, Some(span.clone())));
+                return Err(syntax_problem(message).in_file(
+                    &sources[0].name,
+                    text,
+                    Some(span.clone()),
+                ));
             }
             out.push_str(&text[at..span.start]);
             out.push_str(by);

@@ -13,7 +13,7 @@ use crate::robots::description::{Robot, Unit};
 use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
-use crate::robots::problem::{Read, known, too_many, unknown_name, whole};
+use crate::robots::problem::{Read, known, syntax_problem, too_many, unknown_name};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
@@ -165,7 +165,7 @@ fn chosen<'a>(
     let Some(&most) = all.iter().rev().max_by_key(count) else {
         let message =
             "there is no assembly in the document; make one with FreeCAD's Assembly workbench";
-        return Err(root.fail(None, whole(message)));
+        return Err(root.fail(None, syntax_problem(message)));
     };
     for other in all.iter().filter(|o| o.name != most.name) {
         let what = format!(

@@ -1,7 +1,7 @@
 //! Formats that are not read: a file in one is refused by name, with what to do instead.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::whole;
+use crate::robots::problem::syntax_problem;
 
 /// A format that is not read: its name, the endings of its files in small letters, what its files begin with, which is empty where
 /// that says nothing, and what to do instead.
@@ -106,7 +106,7 @@ pub fn refuse(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
         None => Ok(()),
         Some((format, .., remedy)) => {
             let message = format!("this is a {format} file, which is not read; {remedy}");
-            Err(whole(message).at(name, "", None))
+            Err(syntax_problem(message).in_file(name, "", None))
         }
     }
 }

@@ -23,7 +23,7 @@ use crate::robots::mechanism::loop_closing::size;
 use crate::robots::mechanism::{
     Entries, apply_pose, close_loops, entries, held, loop_options, root_link,
 };
-use crate::robots::problem::{ExportError, whole};
+use crate::robots::problem::{ExportError, syntax_problem};
 use crate::robots::warning::{Options, Reader, Report};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
@@ -74,7 +74,7 @@ fn root(
     let Some(found) = archive.member(DOCUMENT)? else {
         let message =
             format!("there is no {DOCUMENT} in the archive; it is not a FreeCAD document");
-        return Err(whole(message).at(&name, "", None));
+        return Err(syntax_problem(message).in_file(&name, "", None));
     };
     document.read(&name, xml::utf8(&name, &found)?)
 }
@@ -100,7 +100,7 @@ pub fn import(
     };
     let read: Reader<'_> = &inner;
     let (format, mut robot) = described(&mut document, root, read, options)?;
-    let fail = |p: ProblemKind| p.at(name, "", None);
+    let fail = |p: ProblemKind| p.in_file(name, "", None);
     match &options.loops {
         Some((side, bytes)) => loops::add(side, bytes, &mut robot)?,
         None if format.word == "urdf" => loops::beside(name, read, &mut robot),
@@ -170,7 +170,7 @@ fn described(
         let known = roots();
         let element = document.element(root);
         let message = format!("the root element is <{found}>; {known} can be read");
-        return Err(element.fail(None, whole(message)));
+        return Err(element.fail(None, syntax_problem(message)));
     };
     expanded(document)?;
     let robot = describe(document, root, read, options)?;

@@ -18,7 +18,7 @@ use crate::robots::description::{Part, Robot, coupling, free};
 use crate::robots::mechanism::entries::{Bodies, Content};
 use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
 use crate::robots::mechanism::outputs::link_of;
-use crate::robots::problem::{bad_value, known, unknown_name, whole};
+use crate::robots::problem::{bad_value, known, syntax_problem, unknown_name};
 use crate::robots::warning::Options;
 use itertools::Itertools;
 use std::collections::BTreeSet;
@@ -113,7 +113,7 @@ pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
         .map(|l| format!("link \"{l}\""))
         .join(", ");
     let root = &robot.links[tree.roots[0]];
-    Err(whole(format!(
+    Err(syntax_problem(format!(
         "no joint connects {loose} with {root}; add one, or use --floating to let every such part float"
     )))
 }
@@ -147,7 +147,7 @@ pub(crate) fn close_loops(
     let (left, outside) = close(robot, tree);
     if left > ROUNDED * size {
         let widest = widest(robot, tree, size);
-        return Err(whole(format!(
+        return Err(syntax_problem(format!(
             "the loops do not close, the widest is {widest}; give a pose nearby with --pose joint=value, or take it as it is with --open"
         )));
     }
@@ -313,7 +313,7 @@ fn within_limits(links: usize, joints: usize) -> Result<(), ProblemKind> {
     let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
     match all.iter().find(|(_, count, limit)| count > limit) {
         None => Ok(()),
-        Some((what, count, limit)) => Err(whole(format!(
+        Some((what, count, limit)) => Err(syntax_problem(format!(
             "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
         ))),
     }

@@ -8,52 +8,52 @@ use thiserror::Error;
 pub(crate) type Read<T> = Result<T, ImportError>;
 
 /// A problem in words of its own.
-pub(crate) fn whole(message: impl Into<String>) -> ProblemKind {
+pub(crate) fn syntax_problem(message: impl Into<String>) -> ProblemKind {
     let message = message.into();
     ProblemKind::Syntax { message }
 }
 
 pub(crate) fn too_large(bytes: usize, limit: usize) -> ProblemKind {
-    whole(format!(
+    syntax_problem(format!(
         "the file has {bytes} bytes, more than the {limit} allowed; remove what is not kinematics"
     ))
 }
 
 pub(crate) fn too_deep(limit: usize) -> ProblemKind {
-    whole(format!(
+    syntax_problem(format!(
         "elements are nested more than {limit} deep; flatten the file"
     ))
 }
 
 pub(crate) fn too_many(what: &str, limit: usize) -> ProblemKind {
-    whole(format!(
+    syntax_problem(format!(
         "more than {limit} {what}; remove what is not kinematics"
     ))
 }
 
 pub(crate) fn missing(element: &str, what: &str) -> ProblemKind {
-    whole(format!("{element} has no {what}; add it"))
+    syntax_problem(format!("{element} has no {what}; add it"))
 }
 
 pub(crate) fn bad_value(element: &str, what: &str, found: &str, want: &str) -> ProblemKind {
-    whole(format!("{what} of {element} is \"{found}\"; {want}"))
+    syntax_problem(format!("{what} of {element} is \"{found}\"; {want}"))
 }
 
 pub(crate) fn unknown_word(element: &str, what: &str, word: &str, known: &str) -> ProblemKind {
-    whole(format!(
+    syntax_problem(format!(
         "{element} has the unknown {what} \"{word}\"; known: {known}"
     ))
 }
 
 /// A name that nothing has; `known` says what has one.
 pub(crate) fn unknown_name(element: &str, what: &str, name: &str, known: &str) -> ProblemKind {
-    whole(format!(
+    syntax_problem(format!(
         "{element} names the {what} \"{name}\", which there is not; {known}"
     ))
 }
 
 pub(crate) fn unsupported(element: &str, why: &str, remedy: &str) -> ProblemKind {
-    whole(format!("{element} cannot be mapped: {why}; {remedy}"))
+    syntax_problem(format!("{element} cannot be mapped: {why}; {remedy}"))
 }
 
 /// A list of names for a message, cut where it is long.

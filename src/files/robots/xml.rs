@@ -5,7 +5,7 @@ pub(crate) mod element;
 use crate::file::problem::ProblemKind;
 use crate::file::text;
 use crate::geom::vector::Vector;
-use crate::robots::problem::{Read, too_deep, too_large, too_many, whole};
+use crate::robots::problem::{Read, syntax_problem, too_deep, too_large, too_many};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::ops::Range;
@@ -131,9 +131,9 @@ pub(crate) struct Document {
 /// Bytes as text.
 pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Read<String> {
     if bytes.len() > MAX_BYTES {
-        return Err(too_large(bytes.len(), MAX_BYTES).at(name, "", None));
+        return Err(too_large(bytes.len(), MAX_BYTES).in_file(name, "", None));
     }
-    let text = text::utf8(bytes).map_err(|problem| problem.at(name, "", None))?;
+    let text = text::utf8(bytes).map_err(|problem| problem.in_file(name, "", None))?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())
 }
 
@@ -146,7 +146,7 @@ impl Document {
                 .rev()
                 .find(|&i| text.is_char_boundary(i));
             let at = at.unwrap_or(0);
-            problem.at(name, &text, Some(at..at))
+            problem.in_file(name, &text, Some(at..at))
         })?;
         let name = name.to_owned();
         self.sources.push(Source { name, text });
@@ -168,7 +168,7 @@ impl Document {
 type Located = (ProblemKind, usize);
 
 fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
-    whole(format!("{message}; the file is not well-formed XML"))
+    syntax_problem(format!("{message}; the file is not well-formed XML"))
 }
 
 /// Refuses control characters, which terminals would obey, but for those that lay out the text.
@@ -241,7 +241,7 @@ fn parse(text: &str, source: usize, nodes: &mut Vec<Node>) -> Result<usize, Loca
             }
             Event::DocType(t) if t.contains("<!ENTITY") => {
                 let message = "the file declares entities; expand them first, for example with `xmllint --noent`";
-                return Err((whole(message), before));
+                return Err((syntax_problem(message), before));
             }
             Event::Eof if !open.is_empty() => {
                 let name = &nodes[open[open.len() - 1]].name;

@@ -12,9 +12,9 @@ use itertools::Itertools;
 
 /// Reads the couplings, and takes from coupled joints the options that cannot be coupled alike.
 pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
-    for (at, entry) in out.at("coupling").all(&file.coupling) {
+    for (at, entry) in out.key("coupling").entries(&file.coupling) {
         let joints = at.key("joints");
-        let ends = joints.all(&entry.joints);
+        let ends = joints.entries(&entry.joints);
         let ends = ends
             .filter_map(|(at, word)| end(mechanism, word, &at))
             .collect_vec();
@@ -124,7 +124,7 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
         }
         let joint = &mut mechanism.joints[j];
         let present = joint.options[0].clone();
-        let at = out.at("joint").index(j.index()).key("options");
+        let at = out.key("joint").index(j.index()).key("options");
         joint.options.retain(|o| {
             let keeps = keeps_coupled(o, &present, &coupled);
             if !keeps && file.joint[j].options.is_some() {

@@ -24,7 +24,7 @@ pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
         .collect_vec();
     if states.len() > MOST_STATES {
         let (what, count, limit) = ("states", states.len(), MOST_STATES);
-        out.at("joint")
+        out.key("joint")
             .add(ProblemKind::TooMany { what, count, limit });
         states.truncate(MOST_STATES);
     }
@@ -37,7 +37,7 @@ pub(crate) fn joints(
     states: &[String],
     out: &Findings,
 ) -> Vec<Joint> {
-    let all = out.at("joint").all(&file.joint).enumerate();
+    let all = out.key("joint").entries(&file.joint).enumerate();
     let all = all.filter_map(|(i, (at, entry))| {
         let twice = file.joint[..i].iter().any(|j| j.id == entry.id);
         at.check_id("joint", &entry.id, twice);
@@ -128,7 +128,7 @@ fn unloading(
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.unloading {
         None | Some(Unloading::Allowed(false)) => return Vec::new(),
-        Some(Unloading::Allowed(true)) => (&file.search.unloading, at.out.at("search")),
+        Some(Unloading::Allowed(true)) => (&file.search.unloading, at.out.key("search")),
         Some(Unloading::List(list)) => (list, at.clone()),
     };
     let from = from.key("unloading");

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
     let mut links: Vec<Link> = Vec::new();
-    for (at, entry) in out.at("link").all(&file.link) {
+    for (at, entry) in out.key("link").entries(&file.link) {
         at.check_id("link", &entry.id, links.iter().any(|l| l.id == entry.id));
         let role = match entry.role.as_deref() {
             None => Role::Inner,
@@ -33,7 +33,7 @@ pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
     }
     let has = |role| links.iter().any(|l| l.role == role);
     if !has(Role::Frame) {
-        out.at("link").add(ProblemKind::NoFrame);
+        out.key("link").add(ProblemKind::NoFrame);
     }
     if !has(Role::Output) {
         outputs(file, &mut links);
@@ -59,7 +59,7 @@ fn outputs(file: &MechanismFile, links: &mut [Link]) {
 
 /// Every link must hang on the frame in each state it has joints in.
 pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
-    let at = |l: usize| out.at("link").index(l).key("id");
+    let at = |l: usize| out.key("link").index(l).key("id");
     for (l, link) in mechanism.links_with_ids() {
         if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
             let link = link.id.clone();
@@ -96,14 +96,14 @@ pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
 
 pub(crate) fn contours(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Vec<Vec<JointId>> {
     let contour = |joints: &[String], at: Place<'_>| {
-        let named = at.all(joints).filter_map(|(at, id)| at.joint(m, id));
+        let named = at.entries(joints).filter_map(|(at, id)| at.joint(m, id));
         let named: Vec<JointId> = named.collect();
         if named.len() == joints.len() && closed_walk(m, &named).is_none() {
             at.add(ProblemKind::OpenContour);
         }
         named
     };
-    let all = out.at("contour").all(&file.contour);
+    let all = out.key("contour").entries(&file.contour);
     all.map(|(at, entry)| contour(&entry.joints, at.key("joints")))
         .collect()
 }

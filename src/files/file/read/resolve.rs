@@ -123,7 +123,7 @@ pub(crate) fn joint_type(
 /// The freedoms that words name, each once.
 fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom> {
     let mut list = Vec::new();
-    for (at, w) in at.all(words) {
+    for (at, w) in at.entries(words) {
         match Freedom::from_name(w) {
             Some(f) if list.contains(&f) => {
                 let (joint, freedom) = (joint.to_owned(), w.clone());

@@ -26,7 +26,7 @@ pub(crate) fn options(
 ) -> Vec<JointOption> {
     let (list, from) = match &entry.options {
         Some(list) => (&list[..], at.clone()),
-        None if changeable => (&file.search.options[..], at.out.at("search")),
+        None if changeable => (&file.search.options[..], at.out.key("search")),
         None => (&[][..], at.clone()),
     };
     let (mut options, mut listed) = (vec![present.clone()], false);
@@ -91,7 +91,7 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
     };
     let points = mechanism.joints.iter().map(|j| real(&j.frame.point));
     let size = diagonal(points);
-    for ((at, &(a, b)), miss) in at.all(pairs).zip(misses) {
+    for ((at, &(a, b)), miss) in at.entries(pairs).zip(misses) {
         if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
             let [first, second] = [a, b].map(|j| mechanism.joints[j].id.clone());
             let off = miss.words(mechanism.length_unit.symbol);
@@ -101,10 +101,10 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
 }
 
 pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> SearchSpec {
-    let at = out.at("search");
+    let at = out.key("search");
     let mut spec = SearchSpec::default();
     let hold = at.key("hold");
-    let held = hold.all(&file.search.hold);
+    let held = hold.entries(&file.search.hold);
     spec.hold
         .extend(held.filter_map(|(at, id)| at.link(&mechanism.links, id)));
     let mut grouped = Vec::new();
@@ -124,12 +124,12 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
         });
         named
     };
-    for (at, pair) in at.key("mirror").all(&file.search.mirror) {
+    for (at, pair) in at.key("mirror").entries(&file.search.mirror) {
         if let [a, b] = joints(pair, "mirror", &at)[..] {
             spec.mirror.push((a, b));
         }
     }
-    for (at, group) in at.key("turn").all(&file.search.turn) {
+    for (at, group) in at.key("turn").entries(&file.search.turn) {
         let found = joints(group, "turn", &at);
         let first = file.search.turn[0].len();
         if ![2, 3].contains(&group.len()) || group.len() != first {

@@ -48,7 +48,7 @@ pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     let found = UNITS.into_iter().find(|u| u.symbol == symbol);
     found.unwrap_or_else(|| {
         let known = UNITS.iter().map(|u| u.symbol);
-        out.at("length_unit").unknown("length unit", symbol, known);
+        out.key("length_unit").unknown("length unit", symbol, known);
         UNITS[0]
     })
 }
@@ -58,7 +58,7 @@ const MOST: usize = 64;
 
 /// Returns the parameters of a file by name.
 fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
-    let at = out.at("parameter");
+    let at = out.key("parameter");
     if file.parameter.len() > MOST {
         let (what, count, limit) = ("parameters", file.parameter.len(), MOST);
         at.add(ProblemKind::TooMany { what, count, limit });

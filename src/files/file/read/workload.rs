@@ -106,7 +106,7 @@ fn workload<T>(
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &out);
     let claims = claims(file, &out);
     if spec.is_none() && out.count() == 0 {
-        out.at("workload").add(missing);
+        out.key("workload").add(missing);
     }
     match spec {
         Some(spec) if out.count() == 0 => Ok(WorkloadFile {

@@ -1,7 +1,7 @@
 //! Zip archives, bounded: members read one by one, and an archive written again with one member changed.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::{too_large, whole};
+use crate::robots::problem::{syntax_problem, too_large};
 use crate::robots::xml::MAX_BYTES;
 use std::io::{Cursor, Read, Write};
 use zip::result::ZipError;
@@ -31,7 +31,7 @@ impl Archive {
 
     fn fail(&self, why: &ZipError) -> ImportError {
         let message = format!("the zip archive cannot be read: {why}; {REMEDY}");
-        whole(message).at(&self.name, "", None)
+        syntax_problem(message).in_file(&self.name, "", None)
     }
 
     fn open(&self) -> Result<ZipArchive<Cursor<&[u8]>>, ImportError> {
@@ -58,7 +58,7 @@ impl Archive {
             .map_err(|e| self.fail(&ZipError::Io(e)))?;
         if out.len() > MAX_BYTES {
             let name = format!("{}:{member}", self.name);
-            return Err(too_large(out.len(), MAX_BYTES).at(&name, "", None));
+            return Err(too_large(out.len(), MAX_BYTES).in_file(&name, "", None));
         }
         Ok(Some(out))
     }

@@ -2,7 +2,7 @@
 //! its text the lines below it that have nothing below them.
 
 use crate::file::problem::ProblemKind;
-use crate::robots::problem::{Read, too_deep, too_many, whole};
+use crate::robots::problem::{Read, syntax_problem, too_deep, too_many};
 use crate::robots::xml::{Document, MAX_DEPTH, MAX_ELEMENTS, Node, Source};
 
 impl Document {
@@ -18,7 +18,7 @@ impl Document {
         let source = self.sources.len();
         let root = self.nodes.len();
         let nodes = outline(&text, source, root, from, ends)
-            .map_err(|(problem, at)| problem.at(name, &text, Some(at..at)))?;
+            .map_err(|(problem, at)| problem.in_file(name, &text, Some(at..at)))?;
         self.nodes.extend(nodes);
         let name = name.to_owned();
         self.sources.push(Source { name, text });
@@ -52,14 +52,14 @@ fn outline(
         }
         if word.chars().any(|c| c.is_control() && c != '\t') {
             let message = "a control character is there; remove it";
-            return Err((whole(message), start));
+            return Err((syntax_problem(message), start));
         }
         if nodes.len() >= MAX_ELEMENTS {
             return Err((too_many("lines", MAX_ELEMENTS), start));
         }
         if depth > open.len() || (depth == 0 && !nodes.is_empty()) {
             let message = "the line is not one tab deeper than what it belongs to; lay it out as OndselSolver does";
-            return Err((whole(message), start));
+            return Err((syntax_problem(message), start));
         }
         if depth >= MAX_DEPTH {
             return Err((too_deep(MAX_DEPTH), start));
@@ -74,7 +74,7 @@ fn outline(
         open.push(id);
     }
     if nodes.is_empty() {
-        return Err((whole("there is nothing in the file"), 0));
+        return Err((syntax_problem("there is nothing in the file"), 0));
     }
     said(&mut nodes, first);
     Ok(nodes)

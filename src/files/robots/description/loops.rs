@@ -12,7 +12,7 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::{Read, known, too_large, unknown_name, unknown_word, whole};
+use crate::robots::problem::{Read, known, syntax_problem, too_large, unknown_name, unknown_word};
 use crate::robots::warning::Reader;
 use serde_json::{Map, Value};
 
@@ -26,9 +26,9 @@ pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
         if bytes.len() > MAX_BYTES {
             return Err(too_large(bytes.len(), MAX_BYTES));
         }
-        shapes(&parse(name, utf8(bytes)?).map_err(whole)?, robot)
+        shapes(&parse(name, utf8(bytes)?).map_err(syntax_problem)?, robot)
     };
-    added().map_err(|p| p.at(name, "", None))
+    added().map_err(|p| p.in_file(name, "", None))
 }
 
 /// Where a file beside a URDF names loops that nobody asked to read, says so and counts their rows. Such a file is called as the
@@ -116,7 +116,7 @@ fn shapes(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
             }
             Ok(())
         }
-        _ => Err(whole(
+        _ => Err(syntax_problem(
             "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]",
         )),
     }
@@ -126,13 +126,15 @@ fn list<'a>(o: &'a Map<String, Value>, key: &str) -> Result<&'a [Value], Problem
     match o.get(key) {
         None => Ok(&[]),
         Some(Value::Array(items)) => Ok(items),
-        Some(_) => Err(whole(format!("{key} is not a list; write one in brackets"))),
+        Some(_) => Err(syntax_problem(format!(
+            "{key} is not a list; write one in brackets"
+        ))),
     }
 }
 
 fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
     v.and_then(Value::as_str).ok_or_else(|| {
-        whole(format!(
+        syntax_problem(format!(
             "{what} is missing or not a word; write it in quotes"
         ))
     })
@@ -168,7 +170,7 @@ fn put(
 ) -> Result<(), ProblemKind> {
     let links = ends.map(|e| e.0);
     if links[0] == links[1] {
-        return Err(whole(format!(
+        return Err(syntax_problem(format!(
             "{element} connects link \"{}\" to itself; name two different links",
             robot.links[links[0]]
         )));
@@ -185,7 +187,7 @@ fn put(
 fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     let (names, types) = (list(o, "joint_name")?, list(o, "joint_type")?);
     if names.len() != types.len() {
-        return Err(whole(format!(
+        return Err(syntax_problem(format!(
             "joint_name has {} entries and joint_type {}; write one type for each joint",
             names.len(),
             types.len()
@@ -239,7 +241,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     for (i, pair) in list(o, "closed_loop")?.iter().enumerate() {
         let element = format!("loop-{}", i + 1);
         let Some([a, b]) = pair.as_array().map(Vec::as_slice) else {
-            return Err(whole(format!(
+            return Err(syntax_problem(format!(
                 "closed_loop {} is not a pair of names; write [a, b]",
                 i + 1
             )));
@@ -267,7 +269,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
 /// Numbers as a list, or as text with spaces as Drake writes them.
 fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
     let bad = || {
-        whole(format!(
+        syntax_problem(format!(
             "{what} is not three finite numbers; write [0, 0, 1]"
         ))
     };
@@ -319,7 +321,7 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
         ];
         o.keys().find(|k| !known.contains(&k.as_str()))
     }) {
-        return Err(whole(format!(
+        return Err(syntax_problem(format!(
             "{element} has the unknown key {key}; known: id, a, b, type, point_a, point_b, axis_a, axis_b"
         )));
     }
@@ -338,7 +340,7 @@ fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
         let at = vector(item.get(key("point")), &key("point"))?.unwrap_or([0.0; 3]);
         let axis = vector(item.get(key("axis")), &key("axis"))?.unwrap_or(Z);
         if length(axis) < 1e-9 {
-            return Err(whole(format!(
+            return Err(syntax_problem(format!(
                 "{} of {element} is zero; give a direction such as [0, 0, 1]",
                 key("axis")
             )));

@@ -4,7 +4,7 @@ use crate::closure::tree::forest;
 use crate::file::problem::ProblemKind;
 use crate::robots::description::Robot;
 use crate::robots::mechanism::entries::Bodies;
-use crate::robots::problem::{known, unknown_name, whole};
+use crate::robots::problem::{known, syntax_problem, unknown_name};
 use crate::robots::warning::Options;
 use std::collections::BTreeSet;
 
@@ -34,7 +34,7 @@ pub(crate) fn of(
     for name in &options.outputs {
         let b = bodies.of[link_of(robot, name)?];
         if b == frame {
-            return Err(whole(format!(
+            return Err(syntax_problem(format!(
                 "link \"{name}\" is the frame or fixed to it; name a link that moves"
             )));
         }

@@ -1,7 +1,7 @@
 //! Default classes.
 
 use crate::geom::vector::Vector;
-use crate::robots::problem::{Read, known, whole};
+use crate::robots::problem::{Read, known, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ impl<'a> Defaults<'a> {
             if entry.0 != outer {
                 let message =
                     format!("default class \"{class}\" is there twice; names must be unique");
-                return Err(d.fail(Some("class"), whole(message)));
+                return Err(d.fail(Some("class"), syntax_problem(message)));
             }
             entry.1.push(d);
             stack.extend(d.named("default").map(|inner| (inner, Some(class))));

@@ -3,7 +3,7 @@
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::geom::vector::Vector;
 use crate::robots::problem::{
-    Read, bad_value, missing, too_many, unknown_name, unknown_word, unsupported, whole,
+    Read, bad_value, missing, syntax_problem, too_many, unknown_name, unknown_word, unsupported,
 };
 use crate::robots::xml::{Document, Node};
 use std::ops::Range;
@@ -91,7 +91,7 @@ impl<'a> Element<'a> {
         let found = attribute.and_then(|name| node.find(name));
         let span = found.map_or(&node.span, |a| &a.span).clone();
         let source = &self.document.sources[node.source];
-        problem.at(&source.name, &source.text, Some(span))
+        problem.in_file(&source.name, &source.text, Some(span))
     }
 
     /// A part that cannot be read.
@@ -127,7 +127,7 @@ impl<'a> Element<'a> {
     /// The problem that the name is there twice.
     pub(crate) fn duplicate(self) -> ImportError {
         let message = format!("{} is there twice; names must be unique", self.label());
-        self.fail(Some("name"), whole(message))
+        self.fail(Some("name"), syntax_problem(message))
     }
 
     /// The problem that an attribute, or the text, names what there is not.

@@ -22,7 +22,7 @@ fn term(word: &str, at: &Place<'_>) -> Option<Term> {
 /// The ranking a file asks for, if any.
 pub(crate) fn ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
-    let at = &out.at("ranking");
+    let at = &out.key("ranking");
     Some(Ranking {
         order: at.word("order", &entry.order, &Order::ALL.map(|(o, w)| (w, o))),
         clearance: clearance(entry, at),
@@ -117,7 +117,7 @@ pub(crate) fn joint_types(
         all.any(|o| o.name == name)
     };
     for (name, entry) in &file.joint_types {
-        let at = out.at("joint_types").key(name);
+        let at = out.key("joint_types").key(name);
         if name != "custom" && JointType::from_name(name).is_none() && !offered(name) {
             let known = JointType::NAMED.iter().map(JointType::name);
             at.unknown("joint type", name, known.chain(["custom"]));

@@ -25,17 +25,17 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings)
     let shift = |at: Place<'_>, c: &Option<Coordinate>| at.stated(c, most, allowed);
     let (of_file, at) = (
         file.tolerance.clone().unwrap_or_default(),
-        out.at("tolerance"),
+        out.key("tolerance"),
     );
     let lengths = shift(at.key("length"), &of_file.length);
     let of_joints: Vec<Option<f64>> = out
-        .at("joint")
-        .all(&file.joint)
+        .key("joint")
+        .entries(&file.joint)
         .map(|(at, j)| shift(at.key("tolerance"), &j.tolerance))
         .collect();
     let of_points: Vec<Option<f64>> = out
-        .at("point")
-        .all(&file.point)
+        .key("point")
+        .entries(&file.point)
         .map(|(at, p)| shift(at.key("tolerance"), &p.tolerance))
         .collect();
     let at = at.key("direction");

@@ -97,7 +97,7 @@ pub(crate) fn drive(
     out: &Findings,
 ) -> Option<DriveSpec> {
     let e = file.workload.drive.as_ref()?;
-    let t = &out.at("workload").key("drive");
+    let t = &out.key("workload").key("drive");
     let allowed = "an angle above 0, up to 3600 degrees";
     let twist = t.angle_in("swing_angle", &e.swing_angle, [1e-3, 3600.0], allowed) / 2.0;
     let period = period(t, e);
@@ -165,7 +165,7 @@ fn pieces(t: &Place<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -
     if count.is_none() {
         return Push::Pieces(pieces);
     }
-    for (at, [from, moment]) in at.all(list) {
+    for (at, [from, moment]) in at.entries(list) {
         let (begins, at) = (at.index(0), at.index(1));
         let from = begins.angle("feed_moments", from);
         let after = pieces.last().map(|p| p.0);

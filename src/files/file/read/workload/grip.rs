@@ -34,7 +34,7 @@ fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
     let s = match entry {
         Diameters::List(list) => {
             at.number_of(what, list.len(), MOST, allowed)?;
-            let each = at.all(list);
+            let each = at.entries(list);
             let each = each.map(|(at, c)| at.value("diameter", c, unit, Bound::Positive));
             return Some(each.collect());
         }
@@ -100,7 +100,7 @@ fn accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
         at.bad("number of accelerations", count, "at most 1000");
         return None;
     }
-    let each = at.all(&e.accelerations);
+    let each = at.entries(&e.accelerations);
     let mut all = each
         .map(|(at, v)| Toward::Fixed(at.reals(v, 1.0)))
         .collect_vec();
@@ -170,7 +170,9 @@ fn transmission(
 
 /// The joints that a list names; shorter than the list where some are not known.
 fn joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
-    at.all(ids).filter_map(|(at, id)| at.joint(m, id)).collect()
+    at.entries(ids)
+        .filter_map(|(at, id)| at.joint(m, id))
+        .collect()
 }
 
 /// What contacts need of the rest of the table.
@@ -204,7 +206,7 @@ impl Clamp<'_> {
     /// Whether each contact is between the part and its lever, and all act in the same states.
     fn check_contacts(&self, at: &Place<'_>) {
         let m = self.mechanism;
-        for (i, (at, &j)) in at.all(&self.contacts).enumerate() {
+        for (i, (at, &j)) in at.entries(&self.contacts).enumerate() {
             let joint = &m.joints[j];
             let lever = &m.joints[self.levers[i / 2]];
             let touches = joint.links.iter().any(|&l| Some(l) == self.part);
@@ -230,7 +232,7 @@ impl Clamp<'_> {
     /// Whether the levers turn on the frame.
     fn check_pivots(&self, at: &Place<'_>) {
         let m = self.mechanism;
-        for (at, &j) in at.all(&self.levers) {
+        for (at, &j) in at.entries(&self.levers) {
             if !m.joints[j].links.contains(&m.frame()) {
                 let allowed = "a joint at the frame: with contacts, the pivots stand still";
                 at.bad("lever joint", format!("{:?}", m.joints[j].id), allowed);
@@ -301,7 +303,7 @@ pub(crate) fn grip(
     out: &Findings,
 ) -> Option<GripSpec> {
     let e = file.workload.grip.as_ref()?;
-    let t = &out.at("workload").key("grip");
+    let t = &out.key("workload").key("grip");
     let allowed = "an angle from 1 to 179 degrees: at 180 the faces form no V";
     let prism_angle = t.angle_in("prism_angle", &e.prism_angle, [1.0, 179.0], allowed);
     let allowed = "an angle from 0 to 179 degrees";

@@ -67,7 +67,7 @@ pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> 
 
 /// The `[workload]` table.
 pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Loads {
-    let (at, entry) = (&out.at("workload"), &file.workload);
+    let (at, entry) = (&out.key("workload"), &file.workload);
     let forces = at.key("force");
     let forces = forces.most(MAX_FORCES, &entry.force, "forces");
     let forces = forces
@@ -120,7 +120,7 @@ fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_
     let speeds = match entry {
         None => Vec::new(),
         Some(Quantities::One(q)) => vec![at.speed(q)],
-        Some(Quantities::Many(list)) => at.all(list).map(|(at, q)| at.speed(q)).collect(),
+        Some(Quantities::Many(list)) => at.entries(list).map(|(at, q)| at.speed(q)).collect(),
     };
     let drives = mechanism.joints.iter().filter(|j| j.drive).count();
     let (what, count, limit) = ("drive speeds", speeds.len(), drives);

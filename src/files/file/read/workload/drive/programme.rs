@@ -40,7 +40,7 @@ pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     if count.is_none() {
         return steps;
     }
-    for (at, text) in at.all(list) {
+    for (at, text) in at.entries(list) {
         let found = step(text);
         if found.is_none() {
             let allowed = "\"1\", \"2\" or a dwell such as \"wait 0.3\"";
