@@ -74,13 +74,13 @@ impl Findings {
         }
     }
 
-    /// The file as a whole.
+    /// Returns the place of the whole file.
     pub(crate) fn root(&self) -> Place<'_> {
         let path = Vec::new();
         Place { path, out: self }
     }
 
-    /// A key of the file.
+    /// Returns the place of a key of the file.
     pub(crate) fn key(&self, key: &str) -> Place<'_> {
         self.root().key(key)
     }
@@ -109,7 +109,7 @@ impl Findings {
     }
 }
 
-/// A place in the file. What stands there is read by the methods, and what is wrong with it is told.
+/// A place in the file. Its methods read values and report problems with them.
 #[derive(Clone)]
 pub(crate) struct Place<'f> {
     path: Vec<DocumentStep>,
@@ -117,12 +117,12 @@ pub(crate) struct Place<'f> {
 }
 
 impl<'f> Place<'f> {
-    /// The place further by a key.
+    /// Returns the place of a key of the table at this place.
     pub(crate) fn key(&self, key: &str) -> Place<'f> {
         self.step(DocumentStep::Key(key.to_owned()))
     }
 
-    /// The place further by a place in a list.
+    /// Returns the place of an entry of the list at this place.
     pub(crate) fn index(&self, i: usize) -> Place<'f> {
         self.step(DocumentStep::Index(i))
     }
@@ -132,7 +132,7 @@ impl<'f> Place<'f> {
         Place { path, ..*self }
     }
 
-    /// The entries of the list that stands here, each with its place.
+    /// Returns the entries of the list at this place, each with its own place.
     pub(crate) fn entries<'e, T>(
         &self,
         list: &'e [T],
@@ -141,7 +141,7 @@ impl<'f> Place<'f> {
         each.map(move |(i, e)| (at.index(i), e))
     }
 
-    /// The same of a list of at most `limit`; the first of them where it has more.
+    /// Returns the first `limit` entries of the list at this place, each with its own place. Reports a longer list.
     pub(crate) fn most<'e, T>(
         &self,
         limit: usize,
@@ -155,7 +155,7 @@ impl<'f> Place<'f> {
         self.entries(&list[..count.min(limit)])
     }
 
-    /// Tells a problem.
+    /// Reports a problem at this place.
     pub(crate) fn add(&self, kind: ProblemKind) {
         let mut told = self.out.told.borrow_mut();
         if told.len() < TOLD {
@@ -165,7 +165,7 @@ impl<'f> Place<'f> {
         }
     }
 
-    /// Tells of a word that is none of those known.
+    /// Reports an unknown word.
     pub(crate) fn unknown(
         &self,
         what: &'static str,
@@ -176,7 +176,7 @@ impl<'f> Place<'f> {
         self.add(ProblemKind::UnknownWord { what, word, known });
     }
 
-    /// Tells of a value that will not do.
+    /// Reports a value that is not allowed.
     pub(crate) fn bad(&self, what: &'static str, value: impl ToString, allowed: &'static str) {
         let value = value.to_string();
         self.add(ProblemKind::BadQuantity {
@@ -186,12 +186,12 @@ impl<'f> Place<'f> {
         });
     }
 
-    /// Tells of a key that goes with another.
+    /// Reports a key that needs another key or condition.
     pub(crate) fn needs(&self, key: &'static str, other: &'static str) {
         self.key(key).add(ProblemKind::KeyNeeds { key, other });
     }
 
-    /// Tells of a key that does not go with another.
+    /// Reports a key that cannot be combined with another key.
     pub(crate) fn excludes(&self, key: &'static str, other: &'static str) {
         self.key(key).add(ProblemKind::KeyExcludes { key, other });
     }

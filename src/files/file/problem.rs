@@ -201,7 +201,7 @@ pub enum ProblemKind {
 }
 
 impl ProblemKind {
-    /// Returns the problem as the one of a file, where it stands there.
+    /// Returns the error of a file that has only this problem, at the given place.
     pub(crate) fn in_file(self, file: &str, text: &str, span: Option<Range<usize>>) -> ImportError {
         let (file, text) = (file.to_owned(), text.to_owned());
         let problems = vec![Problem { kind: self, span }];

@@ -367,7 +367,7 @@ pub fn json_schema() -> Value {
     schema
 }
 
-/// Says of each key that may be null that null is what stands for one that is left out.
+/// Adds null as the default of each key that may be null.
 fn default_to_null(schema: &mut Value) {
     let Value::Object(own) = schema else { return };
     let is_null = |kind: &Value| kind == "null" || kind["type"] == "null";

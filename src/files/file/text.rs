@@ -50,7 +50,7 @@ pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> 
     utf8(bytes).map_err(|problem| problem.in_file(name, "", None))
 }
 
-/// Returns bytes as text.
+/// Returns bytes as text, or the problem that they are not UTF-8.
 pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
     std::str::from_utf8(bytes).map_err(|e| {
         let at = e.valid_up_to();
@@ -114,7 +114,7 @@ pub(crate) fn is_json(name: &str) -> bool {
         .is_some_and(|e| e.eq_ignore_ascii_case("json"))
 }
 
-/// What is wrong with a text, and where.
+/// A message about a syntax error, and its place in the text.
 type Syntax = (String, Option<Range<usize>>);
 
 fn from_toml(text: &str) -> Result<MechanismFile, Syntax> {

@@ -174,7 +174,7 @@ pub enum WarningKind {
     },
 }
 
-/// The first few of a list in words, and how many more there are.
+/// Returns the first `most` items of a list as text, with the number of further items.
 pub(super) fn first_of(all: &[impl Display], most: usize) -> String {
     let more = match all.len().saturating_sub(most) {
         0 => String::new(),

@@ -46,7 +46,7 @@ pub(crate) struct Connection {
 }
 
 impl Connection {
-    /// How it is called in messages.
+    /// Returns its name in messages.
     fn label(&self) -> String {
         format!("joint \"{}\"", self.id)
     }

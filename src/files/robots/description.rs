@@ -93,10 +93,10 @@ impl Part {
         }
     }
 
-    /// A joint that closes a loop between a place on one link and a place on another, as an element says.
+    /// Returns the joint of an element that closes a loop between a place on one link and a place on another.
     ///
     /// # Errors
-    /// Where both are one link.
+    /// Returns an error if both places are on the same link.
     pub(crate) fn closing(
         e: Element<'_>,
         id: &str,
@@ -137,7 +137,7 @@ impl Part {
     }
 }
 
-/// The problem of a joint or constraint of a link with itself.
+/// Returns the error for a joint or constraint that connects a link to itself.
 pub(crate) fn same_link(e: Element<'_>) -> ImportError {
     e.unsupported("it connects a link to itself", "name two different links")
 }
@@ -166,7 +166,7 @@ pub(crate) struct Ratio {
 }
 
 impl Ratio {
-    /// A ratio of the joints that lead and follow, as an element says.
+    /// Returns the ratio of an element that couples a leading joint and a following one.
     pub(crate) fn new(joints: [&str; 2], ratio: f64, e: Element<'_>) -> Ratio {
         Ratio {
             joints: joints.map(str::to_owned),

@@ -3,8 +3,8 @@
 use crate::file::problem::ImportError;
 use crate::robots::problem::syntax_problem;
 
-/// A format that is not read: its name, the endings of its files in small letters, what its files begin with, which is empty where
-/// that says nothing, and what to do instead.
+/// A format that is not read: its name, the extensions of its files in lower case, the first bytes of its files, and what to do
+/// instead. The first bytes are empty if they do not identify the format.
 type Foreign = (&'static str, &'static str, &'static [u8], &'static str);
 
 const GEOMETRY: &str = "it has shapes and no joints; join the parts in FreeCAD's Assembly workbench and give the .FCStd, or write a mechanism file (`ozols new`)";

@@ -38,7 +38,7 @@ struct Waiting<'a> {
 }
 
 impl<'a> Waiting<'a> {
-    /// The world, which is the first link.
+    /// Returns the world, which is the first link.
     fn world(element: Element<'a>) -> Waiting<'a> {
         Waiting {
             element,
@@ -48,7 +48,7 @@ impl<'a> Waiting<'a> {
         }
     }
 
-    /// What is within, held by a link at a place there.
+    /// Returns an element within this one, which a link holds at the given place.
     fn within(&self, element: Element<'a>, link: usize, place: RigidMotion) -> Waiting<'a> {
         let class = element.attribute("childclass").or(self.class);
         Waiting {

@@ -4,10 +4,10 @@ use crate::file::problem::{ImportError, ProblemKind};
 use itertools::Itertools;
 use thiserror::Error;
 
-/// What comes of reading a description, or the first problem with it.
+/// The result of reading a part of a description, or the first problem with it.
 pub(crate) type Read<T> = Result<T, ImportError>;
 
-/// A problem in words of its own.
+/// Returns a problem with the given message.
 pub(crate) fn syntax_problem(message: impl Into<String>) -> ProblemKind {
     let message = message.into();
     ProblemKind::Syntax { message }
@@ -45,7 +45,7 @@ pub(crate) fn unknown_word(element: &str, what: &str, word: &str, known: &str) -
     ))
 }
 
-/// A name that nothing has; `known` says what has one.
+/// Returns the problem that an element names something unknown. `known` lists the known names.
 pub(crate) fn unknown_name(element: &str, what: &str, name: &str, known: &str) -> ProblemKind {
     syntax_problem(format!(
         "{element} names the {what} \"{name}\", which there is not; {known}"
@@ -56,7 +56,7 @@ pub(crate) fn unsupported(element: &str, why: &str, remedy: &str) -> ProblemKind
     syntax_problem(format!("{element} cannot be mapped: {why}; {remedy}"))
 }
 
-/// A list of names for a message, cut where it is long.
+/// Returns a list of names for a message, with at most 20 of them.
 pub(crate) fn known(what: &str, names: impl IntoIterator<Item: AsRef<str>>) -> String {
     let all: Vec<_> = names.into_iter().collect();
     if all.is_empty() {

@@ -57,7 +57,7 @@ impl Node {
         self.attributes.iter().find(|a| a.name == name)
     }
 
-    /// The value of the attribute `name`.
+    /// Returns the value of the attribute `name`.
     fn own_name(&mut self) -> Option<&mut String> {
         let mut all = self.attributes.iter_mut();
         all.find(|a| a.name == "name").map(|a| &mut a.value)
@@ -153,7 +153,7 @@ impl Document {
         Ok(root)
     }
 
-    /// Says why so many bytes more are too many.
+    /// Returns an error if the files become too large with this number of further bytes.
     pub(super) fn has_room(&self, bytes: usize) -> Result<(), String> {
         let total: usize = self.sources.iter().map(|s| s.text.len()).sum();
         if total + bytes > MAX_BYTES {

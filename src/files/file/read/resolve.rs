@@ -40,7 +40,7 @@ fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     })
 }
 
-/// The frame with these parts of a joint; problems are told of the keys of the table that stands `at` a place.
+/// Returns the frame with these parts of a joint. Problems are reported for the keys of the table at the given place.
 pub(crate) fn frame(
     joint: &str,
     point: [Expr; 3],
@@ -137,7 +137,7 @@ fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom
 }
 
 impl Place<'_> {
-    /// A cost in thousandths.
+    /// Returns a cost in thousandths; `None` if it is out of range, which is reported.
     pub(crate) fn cost(&self, value: f64) -> Option<i64> {
         if !(0.0..=1e6).contains(&value) {
             let value = value.to_string();
@@ -228,7 +228,8 @@ pub fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
     contains_rates(wide, narrow, &[])
 }
 
-/// Twists with the rates of the coupled freedoms behind them: those of the option span those of the present joint.
+/// Returns whether the twists of the option span those of the current joint. The rates of the coupled freedoms are further components
+/// of each twist.
 pub(crate) fn contains_rates(
     option: &JointOption,
     present: &JointOption,

@@ -175,7 +175,7 @@ impl<'a> Object<'a> {
             })
     }
 
-    /// How it is called in messages.
+    /// Returns its name in messages.
     fn called(&self) -> String {
         format!("object \"{}\"", self.name)
     }

@@ -87,7 +87,7 @@ fn meant(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<
     last.filter(|&b| depth[b] == deepest).collect()
 }
 
-/// Whether a word is one of several with blanks between.
+/// Returns whether a word is in a list of words, which are separated by spaces.
 fn is_among(words: &str, word: &str) -> bool {
     words.split(' ').any(|w| w == word)
 }

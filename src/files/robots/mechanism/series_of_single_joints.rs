@@ -81,7 +81,7 @@ impl Names {
     }
 }
 
-/// A name that is not used yet: the first, or the n-th from 2 on. It is used from now on.
+/// Returns a name that is not used yet, and marks it as used: the first name, or the `nth` one with the smallest n from 2 on.
 pub(crate) fn unique(
     used: &mut BTreeSet<String>,
     first: String,

@@ -221,7 +221,7 @@ impl<'a> MjcfFile<'a> {
         all.rev().find(|p| p.element == Some(element))
     }
 
-    /// The first element of a tag that has a name; any where none is asked for.
+    /// Returns the first element with the given tag and, if one is given, with the given name.
     fn named(&self, tag: &str, name: Option<&str>) -> Option<Element<'a>> {
         let mut all = (0..self.parents.len()).map(|id| self.origin.element(id));
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))

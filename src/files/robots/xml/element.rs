@@ -40,7 +40,7 @@ impl<'a> Element<'a> {
         names.split(' ').any(|n| n == self.name())
     }
 
-    /// Where the value of an attribute stands in the file.
+    /// Returns the place of the value of an attribute in the file.
     pub(in crate::robots) fn value_span(self, name: &str) -> Option<Range<usize>> {
         let found = self.node().find(name)?;
         (found.span != self.node().span).then(|| found.span.clone())
@@ -71,13 +71,13 @@ impl<'a> Element<'a> {
         self.node().find(name).map(|a| a.value.as_str())
     }
 
-    /// Names and values of all attributes.
+    /// Returns the names and values of all attributes.
     pub(crate) fn attributes(self) -> impl Iterator<Item = (&'a str, &'a str)> {
         let all = self.node().attributes.iter();
         all.map(|a| (a.name.as_str(), a.value.as_str()))
     }
 
-    /// How the element is called in messages.
+    /// Returns the name of the element in messages.
     pub(crate) fn label(self) -> String {
         match self.attribute("name") {
             Some(n) => format!("{} \"{n}\"", self.name()),
@@ -85,7 +85,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// A problem with the element, or with one of its attributes.
+    /// Returns the error for a problem with the element or with one of its attributes.
     pub(crate) fn fail(self, attribute: Option<&str>, problem: ProblemKind) -> ImportError {
         let node = self.node();
         let found = attribute.and_then(|name| node.find(name));
@@ -94,17 +94,17 @@ impl<'a> Element<'a> {
         problem.in_file(&source.name, &source.text, Some(span))
     }
 
-    /// A part that cannot be read.
+    /// Returns the error for an element that cannot be mapped.
     pub(crate) fn unsupported(self, why: &str, remedy: &str) -> ImportError {
         self.fail(None, unsupported(&self.label(), why, remedy))
     }
 
-    /// A word that is none of those known.
+    /// Returns the error for an unknown word.
     pub(crate) fn unknown_word(self, what: &str, word: &str, known: &str) -> ImportError {
         self.fail(Some(what), unknown_word(&self.label(), what, word, known))
     }
 
-    /// Refuses one more of `what` where there are too many already.
+    /// Returns an error if there is no room for one more of `what`.
     pub(crate) fn room(self, what: &str, count: usize) -> Read<()> {
         let limit = MAX_PARTS;
         if count < limit {
@@ -113,24 +113,24 @@ impl<'a> Element<'a> {
         Err(self.fail(None, too_many(what, limit)))
     }
 
-    /// The attribute that must be there.
+    /// Returns the value of an attribute, or an error if it is missing or empty.
     pub(crate) fn required(self, name: &str) -> Read<&'a str> {
         let found = self.attribute(name).filter(|v| !v.trim().is_empty());
         found.ok_or_else(|| self.missing(&format!("attribute {name}")))
     }
 
-    /// The problem that something is not there.
+    /// Returns the error for something that is missing.
     pub(crate) fn missing(self, what: &str) -> ImportError {
         self.fail(None, missing(&self.label(), what))
     }
 
-    /// The problem that the name is there twice.
+    /// Returns the error for a name that two elements have.
     pub(crate) fn duplicate(self) -> ImportError {
         let message = format!("{} is there twice; names must be unique", self.label());
         self.fail(Some("name"), syntax_problem(message))
     }
 
-    /// The problem that an attribute, or the text, names what there is not.
+    /// Returns the error for an attribute or text that names something unknown.
     pub(crate) fn unknown_name(
         self,
         key: &str,
@@ -143,19 +143,19 @@ impl<'a> Element<'a> {
 }
 
 impl Element<'_> {
-    /// N numbers of an attribute, if it is there.
+    /// Returns the N numbers of an attribute; `None` if the attribute is missing.
     pub(crate) fn numbers<const N: usize>(self, name: &str) -> Read<Option<[f64; N]>> {
         self.attribute(name)
             .map(|text| self.parse_numbers(name, text))
             .transpose()
     }
 
-    /// A vector attribute, or what is there without it.
+    /// Returns the vector of an attribute, or the default if the attribute is missing.
     pub(crate) fn vector(self, name: &str, default: Vector) -> Read<Vector> {
         Ok(self.numbers::<3>(name)?.unwrap_or(default))
     }
 
-    /// N numbers of the element's text.
+    /// Returns the N numbers of the element's text.
     pub(crate) fn text_numbers<const N: usize>(self) -> Read<[f64; N]> {
         self.parse_numbers("the text", self.text())
     }

@@ -10,7 +10,7 @@ use itertools::Itertools;
 const LISTED: usize = 30;
 
 impl Words {
-    /// The words.
+    /// Returns the words as a list.
     pub(crate) fn list(&self) -> &[String] {
         match self {
             Words::One(word) => std::slice::from_ref(word),
@@ -20,7 +20,7 @@ impl Words {
 }
 
 impl Place<'_> {
-    /// Tells what is wrong with the name of an item; `twice` where another has it.
+    /// Reports what is wrong with the name of an item. `twice` is true if another item has the same name.
     pub(crate) fn check_id(&self, what: &'static str, id: &str, twice: bool) {
         let at = self.key("id");
         let id = id.to_owned();
@@ -32,7 +32,7 @@ impl Place<'_> {
         }
     }
 
-    /// The link that is named here.
+    /// Returns the link with the given name; reports an unknown name.
     pub(crate) fn link(&self, links: &[Link], id: &str) -> Option<LinkId> {
         let found = links.iter().position(|l| l.id == *id).map(LinkId::new);
         if found.is_none() {
@@ -43,7 +43,7 @@ impl Place<'_> {
         found
     }
 
-    /// The joint that is named here.
+    /// Returns the joint with the given name; reports an unknown name.
     pub(crate) fn joint(&self, mechanism: &Mechanism, id: &str) -> Option<JointId> {
         let found = mechanism.joint(id);
         if found.is_none() {
@@ -52,14 +52,14 @@ impl Place<'_> {
         found
     }
 
-    /// Tells of a joint that there is not.
+    /// Reports an unknown joint.
     pub(crate) fn unknown_joint(&self, mechanism: &Mechanism, id: &str) {
         let mut ids = mechanism.joints.iter().map(|j| j.id.as_str()).take(LISTED);
         let (id, known) = (id.to_owned(), ids.join(", "));
         self.add(ProblemKind::UnknownJoint { id, known });
     }
 
-    /// The states that an entry names; `None` where it names none, which means all.
+    /// Returns the states that an entry names; `None` if it names none, which means all.
     pub(crate) fn states(&self, m: &Mechanism, named: Option<&Words>) -> Option<Vec<StateId>> {
         let mut found = Vec::new();
         for word in named?.list() {

@@ -14,17 +14,17 @@ const RANGE: (f64, f64) = (1e-40, 1e12);
 const NOTHING: f64 = 1e-40;
 
 impl Place<'_> {
-    /// A number in the range of lengths.
+    /// Returns a number in the range of lengths.
     pub(crate) fn number(&self, c: &Coordinate) -> Expr {
         self.in_range(self.read_number(c, false))
     }
 
-    /// Three numbers in the range of lengths.
+    /// Returns three numbers in the range of lengths.
     pub(crate) fn vector(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
         [0, 1, 2].map(|i| self.index(i).number(&v[i]))
     }
 
-    /// A direction of any length, made longer or shorter by a power of ten where its numbers are beyond the range of lengths.
+    /// Returns a direction of any length. It is scaled by a power of ten if its numbers are outside the range of lengths.
     pub(crate) fn direction(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
         let read = [0, 1, 2].map(|i| self.index(i).read_number(&v[i], false));
         let largest = read.iter().map(|e| e.to_f64().abs()).fold(0.0, f64::max);
@@ -45,7 +45,7 @@ impl Place<'_> {
         kept.map(|e| e.scaled_as_written(&e * &factor, 10f64.powi(-power)))
     }
 
-    /// The pitch of a screw, per radian, from that or from its lead, which is per turn; none where neither stands.
+    /// Returns the pitch of a screw per radian, from the pitch or from the lead, which is per turn; `None` if neither is given.
     pub(crate) fn pitch(
         &self,
         pitch: &Option<Coordinate>,

@@ -38,7 +38,7 @@ impl Bound {
 }
 
 impl Place<'_> {
-    /// A number times `unit`; 1 where it is none.
+    /// Returns a number times `unit`; 1 if it is not valid, which is reported.
     pub(crate) fn value(&self, what: &'static str, c: &Coordinate, unit: f64, bound: Bound) -> f64 {
         let before = self.out.count();
         let value = self.number(c).to_f64();
@@ -52,12 +52,12 @@ impl Place<'_> {
         value * unit
     }
 
-    /// The same under a key of the table that stands here.
+    /// Returns the number of a key of the table at this place, times `unit`.
     pub(crate) fn figure(&self, k: &'static str, c: &Coordinate, unit: f64, bound: Bound) -> f64 {
         self.key(k).value(k, c, unit, bound)
     }
 
-    /// A number that may be missing.
+    /// Returns a number that may be missing.
     pub(crate) fn optional(
         &self,
         k: &'static str,
@@ -68,7 +68,7 @@ impl Place<'_> {
         c.as_ref().map(|c| self.figure(k, c, unit, bound))
     }
 
-    /// A number above 0 that may be missing.
+    /// Returns a number above 0 that may be missing.
     pub(crate) fn positive(
         &self,
         k: &'static str,
@@ -78,7 +78,7 @@ impl Place<'_> {
         self.optional(k, c, unit, Bound::Positive)
     }
 
-    /// A number from 0 that may be missing.
+    /// Returns a number of 0 or more that may be missing.
     pub(crate) fn not_negative(
         &self,
         k: &'static str,
@@ -103,12 +103,12 @@ impl Place<'_> {
         found
     }
 
-    /// Three numbers.
+    /// Returns three numbers times `unit`.
     pub(crate) fn reals(&self, v: &[Coordinate; 3], unit: f64) -> [f64; 3] {
         self.vector(v).map(|e| e.to_f64() * unit)
     }
 
-    /// An angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".
+    /// Returns an angle in radians: a number of degrees, or "120deg", "2.1rad", "pi/3", "2*pi/3".
     pub(crate) fn angle(&self, what: &'static str, c: &Coordinate) -> f64 {
         let (inner, unit) = match c {
             Coordinate::Expression(text) => match angle_text(text) {
@@ -125,7 +125,7 @@ impl Place<'_> {
         self.value(what, &inner, unit, Bound::Any)
     }
 
-    /// An angle in radians that must lie in a range of degrees.
+    /// Returns an angle in radians that must be in a range of degrees.
     pub(crate) fn angle_in(
         &self,
         k: &'static str,
@@ -141,13 +141,13 @@ impl Place<'_> {
         1.0
     }
 
-    /// Tells of an angle that will not do.
+    /// Reports an angle that is not allowed.
     pub(crate) fn bad_angle(&self, what: &'static str, angle: f64, allowed: &'static str) {
         let degrees = format!("{} degrees", angle.to_degrees());
         self.bad(what, degrees, allowed);
     }
 
-    /// What a word stands for; the first of those known where none is given.
+    /// Returns the meaning of a word. If no word is given, it is that of the first known one.
     pub(crate) fn word<T: Copy>(
         &self,
         k: &'static str,

@@ -49,7 +49,7 @@ pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings)
 }
 
 impl Place<'_> {
-    /// A tolerance, nothing where it is none.
+    /// Returns a tolerance; `None` if it is missing or not valid.
     fn stated(&self, c: &Option<Coordinate>, most: f64, allowed: &'static str) -> Option<f64> {
         let before = self.out.count();
         let value = self.number(c.as_ref()?).to_f64();

@@ -12,12 +12,12 @@ const GRAVITY: f64 = 9.80665;
 /// Most diameters and accelerations.
 const MOST: usize = 1000;
 
-/// What a file says of the mass of a part: what contacts and loads need.
+/// The keys for the mass of a part, which contacts and loads need.
 const MASS: &str = "the mass of the part: mass, or density and part_length";
-/// What names of joints need.
+/// The condition for keys that name joints or links.
 pub(super) const MECHANISM: &str = "a mechanism in the same file: links and joints";
 
-/// The diameters in ascending order, each once; the nominal one where they cannot be read.
+/// Returns the diameters in ascending order without duplicates; only the nominal one if they cannot be read.
 fn diameters(t: &Place<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f64> {
     let Some(entry) = &entry.diameters else {
         return vec![nominal];
@@ -28,7 +28,7 @@ fn diameters(t: &Place<'_>, entry: &GripEntry, unit: f64, nominal: f64) -> Vec<f
     list
 }
 
-/// The diameters as they are listed or stepped; none where they are not 1 to 1000.
+/// Returns the diameters of a list or of a range with steps; `None` if there are not 1 to 1000.
 fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
     let (what, allowed) = ("number of diameters", "1 to 1000");
     let s = match entry {

@@ -60,7 +60,7 @@ fn with_units(text: &str, units: &[(&str, f64)]) -> Option<f64> {
 }
 
 impl Place<'_> {
-    /// A number with a unit; 0 where it is none.
+    /// Returns a number with a unit; 0 if it is not valid, which is reported.
     fn quantity(
         &self,
         q: &Quantity,
@@ -78,20 +78,20 @@ impl Place<'_> {
         value.unwrap_or(0.0)
     }
 
-    /// A position of a drive.
+    /// Returns a position of a drive.
     pub(crate) fn position(&self, q: &Quantity) -> f64 {
         let allowed =
             "a number of radians or length units such as 1.5, or an angle such as \"90deg\"";
         self.quantity(q, position, "drive position", allowed)
     }
 
-    /// A speed of a drive.
+    /// Returns a speed of a drive.
     pub(crate) fn speed(&self, q: &Quantity) -> f64 {
         let allowed = "a number of rad/s or length units per second, or a speed such as \"60rpm\" or \"30deg/s\"";
         self.quantity(q, speed, "drive speed", allowed)
     }
 
-    /// A small turn.
+    /// Returns a small angle.
     pub(crate) fn turn(&self, q: &Quantity) -> f64 {
         let allowed = "a number of radians, or an angle such as \"0.1deg\"";
         self.quantity(q, position, "angle", allowed)

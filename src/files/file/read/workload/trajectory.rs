@@ -10,7 +10,7 @@ const MOST: usize = 100_000;
 /// The columns: the first three are needed, the three of gravity go together.
 const COLUMNS: [&str; 8] = ["ax", "ay", "az", "gx", "gy", "gz", "time", "diameter"];
 
-/// Why a table is no motion: the file, its line where there is one, and what is wrong.
+/// The problem with a table of a motion: the file, the line if it is known, and what is wrong.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{0}")]
 pub struct TrajectoryError(String);

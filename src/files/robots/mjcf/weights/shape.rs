@@ -102,8 +102,8 @@ fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
     }
 }
 
-/// Returns the volume in m³, and the moments of inertia about x, y and z of 1 kg of a shape that is filled evenly; none of a plane, which
-/// has no end, nor of a mesh or another kind, whose file is not read.
+/// Returns the volume in m³ of a shape, and its moments of inertia about x, y and z with an even mass of 1 kg. Returns `None` for a
+/// plane, which is infinite, and for a mesh or another kind, whose file is not read.
 fn filled(kind: &str, measures: &Measures) -> Option<(f64, Vector)> {
     let &Measures { deep, long, .. } = measures;
     let (r, l) = (measures.sizes[0], 2.0 * measures.half);
