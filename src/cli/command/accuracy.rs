@@ -55,7 +55,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
         });
         let quick = if a.quick { " --quick" } else { "" };
         let made = format!(
-            "Made by: ozols accuracy{quick} --seed {} -o DIR. On {machine}. Beside each chart is its table as CSV.",
+            "Made by: ozols accuracy{quick} --seed {} -o DIR. On {machine}. The table of each chart is next to it as CSV.",
             args.seed
         );
         output::files(folder, pictures::files(both, &studies, &machine, &made))?;

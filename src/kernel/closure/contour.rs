@@ -153,7 +153,7 @@ fn components(mechanism: &Mechanism, joints: &[JointId]) -> usize {
     touched(mechanism, joints) - merged
 }
 
-/// Returns the joints of each biconnected block of the graph of links; those in no cycle are in none.
+/// Returns the joints of each biconnected block of the graph of links. Joints that are in no cycle are omitted.
 fn blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
     let links = mechanism.links.len();
     let ends = |e: usize| mechanism.joints[present[e]].links.map(LinkId::index);
@@ -180,7 +180,7 @@ fn blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
     tied((0..present.len()).filter(|&e| closing[e]).map(cycle))
 }
 
-/// Horton's candidates, shortest first: for each link v and joint (x, y) of a block, the shortest paths from v with the joint.
+/// Returns Horton's candidates, shortest first: for each link v and joint (x, y) of a block, the shortest paths from v with the joint.
 fn shortest_cycles(
     mechanism: &Mechanism,
     present: &[JointId],

@@ -85,8 +85,9 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         return Vec::new();
     }
     let mut found: Vec<(usize, Vector, f64)> = Vec::new();
-    // Planes that were looked at, by a point of each: three other points of one have nothing new to say. In the order of how large
-    // a component of the normal is, near which alone a parallel one can be; a float that is not negative is ordered by its bits.
+    // Planes that were analysed, each with one of its points: three other points of the same plane add nothing. They are ordered by
+    // the size of a component of the normal, since parallel normals have nearly the same. The bits of a float that is not negative
+    // have the order of its values.
     let mut seen: BTreeMap<(u64, usize), (Vector, usize)> = BTreeMap::new();
     for i in 0..n {
         for j in 0..i {

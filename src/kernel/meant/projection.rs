@@ -1,8 +1,8 @@
 //! Points moved as little as may be, in errors of their digits, so that linear relations hold; each relation is taken only if all
 //! taken so far still hold with no coordinate moved by more than its digits allow.
 //!
-//! Most relations follow from a few others, and most hold as they are written. So what rows tell is kept in reduced echelon form, which
-//! has few entries; the orthonormal directions, which have many, are made of rows when points are to be moved, and not before.
+//! Most relations follow from a few others, and most hold as they are written. The rows taken are kept in reduced echelon form, which
+//! has few entries. The orthonormal directions, which have many, are computed only when points must be moved.
 
 use super::relations::Relation;
 use super::solve::PointEquation;
@@ -27,9 +27,9 @@ const BEYOND: f64 = 1.6;
 const SLACK: f64 = 0.01;
 /// A relation is told by others where so little of it is left.
 const DEPENDENT: f64 = 1e-7;
-/// A row that is off by no more than this, in errors, holds as it is.
+/// A row holds without a move if it is off by no more than this, in errors.
 const HOLDS: f64 = 1e-7;
-/// What is left of numbers that cancel.
+/// The relative rounding error of a sum of numbers that cancel.
 const ROUND_OFF: f64 = 1e-12;
 
 /// Coordinates, in errors, with their coefficients; ascending, and none is zero.
@@ -43,11 +43,11 @@ pub(super) struct Projection<'a> {
     errors: &'a [Vector],
     /// The displacement of a point that its digits allow, nearest to one that is wished for.
     clipped: &'a dyn Fn(usize, Vector) -> Vector,
-    /// Orthonormal directions that the first of the rows decide, in errors; empty where rounding left nothing of one.
+    /// Orthonormal directions that the first rows decide, in errors. A direction is empty if only rounding errors were left of it.
     basis: Vec<Sparse>,
-    /// For each coordinate that the rows tell, what it is in those that they leave free.
+    /// For each coordinate that the rows decide, its expression in the free coordinates.
     told: Vec<Option<Sparse>>,
-    /// What `told` was before a relation that may yet be refused.
+    /// The entries of `told` before the relation under test, which may still be refused.
     before: Vec<(usize, Option<Sparse>)>,
     /// Independent relations taken.
     pub(super) rows: Vec<PointEquation>,
@@ -94,7 +94,8 @@ impl<'a> Projection<'a> {
         norm(&self.free_of(&a)) <= 1e-6 * norm(&a)
     }
 
-    /// The move that a row asks for now, in errors; none where it is decided by what is taken. The directions have to be made.
+    /// Returns the move that a row asks for now, in errors; `None` if the rows taken so far decide it. [`Projection::make_basis`] must
+    /// have been called.
     pub(super) fn asks(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
         let a = self.gradient(row, normals);
         let before = norm(&a);
@@ -128,7 +129,7 @@ impl<'a> Projection<'a> {
 
     /// Takes rows all together or not at all.
     pub(super) fn take(&mut self, rows: &[PointEquation], normals: &[Vector]) -> Taken {
-        // What is taken decides most rows: whether they hold is seen without moving a point.
+        // The rows taken so far decide most rows: no point must be moved to see whether they hold.
         let told: Vec<Option<bool>> = rows.iter().map(|r| self.is_told(r, normals)).collect();
         if told.contains(&Some(false)) {
             return Taken::Refused;
@@ -204,7 +205,7 @@ impl<'a> Projection<'a> {
         false
     }
 
-    /// Directions of points in errors, without coordinates that must stay.
+    /// Returns the directions of points in errors, without the coordinates that must not change.
     fn weighted(&self, of: impl IntoIterator<Item = (usize, Vector)>) -> Sparse {
         let each = of.into_iter().flat_map(|(p, g)| {
             let by = |k: usize| (3 * p + k, g[k] * self.errors[p][k]);
@@ -213,7 +214,7 @@ impl<'a> Projection<'a> {
         added(each.filter(|x| x.1 != 0.0).collect())
     }
 
-    /// A row in errors.
+    /// Returns the gradient of a row in errors.
     fn gradient(&self, row: &PointEquation, normals: &[Vector]) -> Sparse {
         let n = normals[row.normal];
         let terms = row.terms.iter();
@@ -232,7 +233,7 @@ impl<'a> Projection<'a> {
         added(out)
     }
 
-    /// Notes what a row tells that is independent of those before, by its gradient in the free coordinates.
+    /// Eliminates one free coordinate by a new independent row, given its gradient in the free coordinates.
     fn tell(&mut self, free: &[(usize, f64)]) {
         let largest = free.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let Some(&(pivot, by)) = largest else {
@@ -258,14 +259,14 @@ impl<'a> Projection<'a> {
         self.before.push((pivot, self.told[pivot].replace(is)));
     }
 
-    /// Whether a row holds that is decided by what is taken; none where it is not.
+    /// Returns whether a row holds; `None` if the rows taken so far do not decide it.
     fn is_told(&self, row: &PointEquation, normals: &[Vector]) -> Option<bool> {
         let a = self.gradient(row, normals);
         let before = norm(&a);
         is_dependent(before, &self.free_of(&a)).then(|| self.holds(row, normals, before))
     }
 
-    /// Whether a row of some size holds, but for rounding.
+    /// Returns whether a row of the given size holds, except for rounding errors.
     fn holds(&self, row: &PointEquation, normals: &[Vector], size: f64) -> bool {
         let farthest = |p: usize| self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let terms = row.terms.iter();
@@ -287,7 +288,7 @@ impl<'a> Projection<'a> {
         }
     }
 
-    /// A direction without what is decided.
+    /// Returns a direction without its parts along the decided directions.
     fn across(&self, a: &[(usize, f64)]) -> Sparse {
         let mut out = vec![0.0; 3 * self.points.len()];
         a.iter().for_each(|&(i, x)| out[i] = x);
@@ -306,7 +307,8 @@ impl<'a> Projection<'a> {
         }
     }
 
-    /// Puts one row, and gives the square of the move; none where it contradicts those taken, or asks for more than `most` for sure.
+    /// Takes one row and returns the square of the move. Returns `None` if the row contradicts those taken, or certainly asks for more
+    /// than `most`.
     fn put(&mut self, row: &PointEquation, normals: &[Vector], most: f64) -> Option<f64> {
         let a = self.gradient(row, normals);
         let (before, free) = (norm(&a), self.free_of(&a));
@@ -314,7 +316,7 @@ impl<'a> Projection<'a> {
             return self.holds(row, normals, before).then_some(0.0);
         }
         let residue = self.residue(row, normals);
-        // Whatever is left across what is decided, it is no longer than what is left in free coordinates.
+        // The part across the decided directions is no longer than the part in the free coordinates.
         if (residue / norm(&free)).powi(2) > most {
             return None;
         }
@@ -346,7 +348,7 @@ fn is_dependent(size: f64, free: &[(usize, f64)]) -> bool {
     size == 0.0 || norm(free) < DEPENDENT * size
 }
 
-/// Adds up the coefficients of each coordinate; what cancels to rounding is left out.
+/// Adds up the coefficients of each coordinate, and omits those that cancel except for rounding errors.
 fn added(mut terms: Sparse) -> Sparse {
     terms.sort_unstable_by_key(|x| x.0);
     let mut out = Sparse::with_capacity(terms.len());

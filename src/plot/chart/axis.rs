@@ -137,7 +137,8 @@ impl Ruler {
         false
     }
 
-    fn labels_that_fit(&self, room: Room) -> usize {
+    /// Returns how many labels remain if crowded ones are dropped.
+    fn count_fitting_labels(&self, room: Room) -> usize {
         let mut left = self.clone();
         left.drop_crowded(room);
         left.ticks.iter().filter(|t| t.label.is_some()).count()
@@ -196,9 +197,9 @@ fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
         hi = if hi == 0.0 { hi } else { hi + pad };
     }
     let rulers = || counts(room).map(|count| linear_by(lo, hi, count, fit));
-    // One label is no scale: rather some of a crowded ruler's are left out.
-    let good = |r: &Ruler| !r.crowded(room) && r.labels_that_fit(room) >= 2;
-    let most = || rulers().max_by_key(|r| r.labels_that_fit(room));
+    // A scale needs two labels: if no ruler has them without crowding, one whose crowded labels are dropped is better.
+    let good = |r: &Ruler| !r.crowded(room) && r.count_fitting_labels(room) >= 2;
+    let most = || rulers().max_by_key(|r| r.count_fitting_labels(room));
     let ruler = rulers().find(good).or_else(most);
     ruler.unwrap_or_else(|| linear_by(lo, hi, 1.0, fit))
 }

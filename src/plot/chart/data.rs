@@ -81,7 +81,7 @@ pub enum VerdictKind {
 }
 
 impl VerdictKind {
-    /// The class of its colours.
+    /// Returns the class of its colours in the style sheet.
     pub(super) fn class(self) -> &'static str {
         match self {
             VerdictKind::Good => "good",

@@ -342,7 +342,7 @@ fn labels(svg: &str) -> [Vec<String>; 2] {
     ["xt", "yt"].map(|class| texts(svg, class).into_iter().map(|t| t.1).collect())
 }
 
-/// Labels of eleven digits, of which two have room only where one between them is left out.
+/// Checks labels of eleven digits: there is room for two of them only if one between them is omitted.
 #[test]
 fn a_narrow_axis_far_from_zero_has_two_labels() {
     let (middle, far) = (-206061.6901393063, 0.0007319360059975914);

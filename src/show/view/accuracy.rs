@@ -176,8 +176,8 @@ fn notes(t: &Trial) -> String {
     notes.join(" ")
 }
 
-/// A table of the methods, on built-in mechanisms and on those from the seed, on what machine it was made, then a paragraph for
-/// each study.
+/// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph
+/// for each study.
 #[must_use]
 pub fn summary(
     [survey, generated]: [&Survey; 2],
