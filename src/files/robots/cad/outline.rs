@@ -51,7 +51,7 @@ fn outline(
             break;
         }
         if word.chars().any(|c| c.is_control() && c != '\t') {
-            let message = "a control character is there; remove it";
+            let message = "the line has a control character; remove it";
             return Err((syntax_problem(message), start));
         }
         if nodes.len() >= MAX_ELEMENTS {

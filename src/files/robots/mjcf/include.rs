@@ -98,7 +98,7 @@ fn included(
     }
     let bytes = (files.read)(&file).map_err(|error| {
         let why = format!("it cannot be read ({error})");
-        refuse(e, &why, "put it beside the file")
+        refuse(e, &why, "put it in the folder of the file")
     })?;
     if let Err(why) = document.has_room(bytes.len()) {
         return Err(refuse(e, &why, "remove what is not kinematics"));

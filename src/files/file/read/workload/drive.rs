@@ -32,14 +32,14 @@ fn cam(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
             ("cam_efficiency", efficiency),
         ];
         let given = of_cam.into_iter().filter(|(_, v)| v.is_some());
-        given.for_each(|(k, _)| t.needs(k, "spring_stroke beside it"));
+        given.for_each(|(k, _)| t.needs(k, "spring_stroke"));
     }
     let radius = t.positive("cam_radius", &e.cam_radius, unit);
     let roller = t.positive("roller_radius", &e.roller_radius, unit);
     match (stroke, radius, roller) {
-        (_, Some(_), None) => t.needs("cam_radius", "roller_radius beside it"),
-        (_, None, Some(_)) => t.needs("roller_radius", "cam_radius beside it"),
-        (None, Some(_), Some(_)) => t.needs("cam_radius", "spring_stroke beside it"),
+        (_, Some(_), None) => t.needs("cam_radius", "roller_radius"),
+        (_, None, Some(_)) => t.needs("roller_radius", "cam_radius"),
+        (None, Some(_), Some(_)) => t.needs("cam_radius", "spring_stroke"),
         (Some(stroke), Some(radius), Some(roller)) if radius <= stroke + roller => {
             let allowed = "more than spring_stroke and roller_radius together, so that the cam keeps clear of the axis";
             t.key("cam_radius")

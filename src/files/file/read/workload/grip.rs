@@ -73,8 +73,8 @@ fn part_mass(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
             given.for_each(|(k, _)| t.needs(k, MASS));
         }
         (Some(_), _, _) => t.excludes("mass", "density or part_length"),
-        (None, Some(_), None) => t.needs("density", "part_length beside it"),
-        (None, None, Some(_)) => t.needs("part_length", "density beside it"),
+        (None, Some(_), None) => t.needs("density", "part_length"),
+        (None, None, Some(_)) => t.needs("part_length", "density"),
     }
     None
 }
@@ -117,10 +117,7 @@ fn load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let mass = part_mass(t, e, unit)?;
     let Some(friction) = &e.friction else {
         let key = if e.mass.is_some() { "mass" } else { "density" };
-        t.needs(
-            key,
-            "friction, the coefficient between part and faces, beside it",
-        );
+        t.needs(key, "friction, the coefficient between part and faces");
         return None;
     };
     let gravity = gravity(t, e);
@@ -186,7 +183,7 @@ fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
         t.needs("contacts", other);
     }
     if spec.pivots == Pivots::Nominal {
-        let other = "pivots = \"fixed\": the mechanism's own stand where they are";
+        let other = "pivots = \"fixed\": the pivots of the mechanism do not move";
         t.needs("contacts", other);
     }
 }
@@ -255,7 +252,7 @@ fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Opt
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
         if e.lever_joints.is_none() {
-            let other = "lever_joints, the joints that the two levers turn in, beside it";
+            let other = "lever_joints, the joints that the two levers turn in";
             t.needs("contacts", other);
         }
         return None;

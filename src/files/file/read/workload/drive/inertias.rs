@@ -79,8 +79,8 @@ pub(crate) fn inertias(
     let disc = disc_inertia(t, e, unit, mechanism);
     let whole = t.positive("inertia", &e.inertia, 1.0);
     match (mass, radius) {
-        (Some(_), None) => t.needs("payload_mass", "payload_radius beside it"),
-        (None, Some(_)) if whole.is_none() => t.needs("payload_radius", "payload_mass beside it"),
+        (Some(_), None) => t.needs("payload_mass", "payload_radius"),
+        (None, Some(_)) if whole.is_none() => t.needs("payload_radius", "payload_mass"),
         _ => {}
     }
     // Of a whole inertia the radius alone tells how far out accelerations are wanted.
