@@ -31,8 +31,8 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Returns these figures.
-    pub(crate) const fn of(instantaneous: i64, finite: i64) -> Truth {
+    /// Returns the figures with the given mobility at the pose and the given finite mobility.
+    pub(crate) const fn new(instantaneous: i64, finite: i64) -> Truth {
         Truth {
             instantaneous,
             finite,

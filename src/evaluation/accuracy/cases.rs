@@ -48,15 +48,16 @@ pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
             cases.push(Case {
                 mechanism: mechanism.clone(),
                 state,
-                truth: Truth::of(instantaneous, finite),
+                truth: Truth::new(instantaneous, finite),
             });
         }
     }
     Ok(cases)
 }
 
-/// Mechanisms from a seed that no method was made for: special geometry turned and written with six decimals, as it is and with one
-/// joint off by a thousand units of the last; rows of toggles, of four-bars, and lazy tongs.
+/// Returns mechanisms from a seed, for which no method was made. Special geometry is turned and written with six decimals, either
+/// exact or with one joint displaced by a thousand units of the last decimal. The others are rows of toggles, rows of four-bars and
+/// lazy tongs.
 ///
 /// # Panics
 /// Never: the texts are valid.
@@ -82,10 +83,10 @@ pub fn generated(seed: u64) -> Vec<Case> {
     }
     for levels in 1..=3 {
         let text = toggles(levels, &mut Noise::new(seed, levels));
-        add(read(&text), format!("toggles {levels}"), Truth::of(1, 0));
+        add(read(&text), format!("toggles {levels}"), Truth::new(1, 0));
         for kind in [LatticeKind::FourBars, LatticeKind::Scissors] {
             let name = format!("{kind:?} {levels}");
-            add(lattice::mechanism(kind, levels), name, Truth::of(1, 1));
+            add(lattice::mechanism(kind, levels), name, Truth::new(1, 1));
         }
     }
     cases

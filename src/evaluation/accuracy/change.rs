@@ -37,9 +37,9 @@ pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
     m
 }
 
-/// The same with every decimal at its word, as a fraction is.
+/// Returns a copy in which every decimal is exact, as a fraction is.
 #[must_use]
-pub(crate) fn at_its_word(mechanism: &Mechanism) -> Mechanism {
+pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {
     let mut m = bare(mechanism);
     for joint in &mut m.joints {
         let frame = &mut joint.frame;
@@ -68,7 +68,7 @@ impl Noise {
         f64::from(self.0.next_u32()) / f64::from(u32::MAX) * 2.0 - 1.0
     }
 
-    /// A whole number of at most so many bits, 63 at most.
+    /// Draws an integer of up to `bits` bits, at most 63.
     pub(crate) fn draw_integer(&mut self, bits: u32) -> i64 {
         (self.0.next_u64() >> (64 - bits.min(63))).cast_signed()
     }

@@ -90,8 +90,8 @@ pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
     mechanism_from_str("lattice.toml", &file.text("lattice")).expect("a generated file is valid")
 }
 
-/// The file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its motion.
-/// At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
+/// Returns the file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its
+/// motion. At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
 #[must_use]
 pub fn toggles(levels: usize, noise: &mut Noise) -> String {
     #[allow(clippy::cast_possible_truncation, reason = "130 at most")]
@@ -119,8 +119,8 @@ pub fn toggles(levels: usize, noise: &mut Noise) -> String {
     file.text("toggles")
 }
 
-/// A planar ladder: a four-bar, and three hinges more for each further contour, at places drawn at random, with four options each. Of
-/// eight contours the diagram does not fit into the default budget.
+/// Returns a planar ladder: a four-bar, and three more hinges for each further contour, at random points, with four options each. The
+/// diagram of eight contours does not fit into the default budget.
 ///
 /// # Panics
 /// Never: the text is valid.

@@ -144,7 +144,7 @@ pub fn tolerances(survey: &Survey) -> String {
     format!("Floating point is right most often with {}.", list(&all))
 }
 
-/// Which methods are always right, and which no other beats in both share and time.
+/// Returns sentences with the methods that are right on all cases, and those on the Pareto front of share and time.
 #[must_use]
 pub(crate) fn front_sentence(survey: &Survey) -> String {
     let places = places(survey);
@@ -172,7 +172,8 @@ pub(crate) fn front_sentence(survey: &Survey) -> String {
     )
 }
 
-/// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is. `made` says how.
+/// Returns the names and texts of all files. `index.html` is the last, so that it exists only after the files that it shows. `made` is
+/// the paragraph on how they were made.
 #[must_use]
 pub fn files(
     [built_in, generated]: [&Survey; 2],

@@ -1,11 +1,11 @@
-//! What is said of a mechanism against its true figures: right, left open, wrong but called not exact, or wrong and sure.
+//! Judgement of answers against the true figures of a mechanism: right, undecided, wrong but reported as not exact, or wrong and sure.
 
 use super::{AnswerVerdict, Truth};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::auto::{Decision, decide};
 use crate::rank::method::{Certainty, MobilityMethod, NoAnswer};
 
-/// What is said against the truth.
+/// A judgement of an answer against the truth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Said {
     /// The true figures.
@@ -21,7 +21,7 @@ pub enum Said {
 impl Said {
     /// Judges an answer: whether it is given, whether it is called exact, and whether it is right.
     #[must_use]
-    pub fn of(given: bool, exact: bool, right: bool) -> Said {
+    pub fn judge(given: bool, exact: bool, right: bool) -> Said {
         match (given, right, exact) {
             (false, ..) => Said::Open,
             (_, true, _) => Said::Right,
@@ -30,8 +30,8 @@ impl Said {
         }
     }
 
-    /// What a method says, by what it promises; of the automatic choice the worse of W and finite mobility. `None` where it
-    /// does not apply.
+    /// Judges the answer of a method by what the method promises. For the automatic choice this is the worse of W and finite
+    /// mobility. Returns `None` if the method does not apply.
     fn of_method(method: &dyn MobilityMethod, m: &Mechanism, s: StateId, t: Truth) -> Option<Said> {
         if method.name() == "auto" {
             let found = Said::of_decision(decide(m, s).ok().as_ref(), t);
@@ -44,7 +44,7 @@ impl Said {
             Ok(a) => {
                 let open = matches!(a.certainty, Certainty::Undecided { .. });
                 let numeric = matches!(a.certainty, Certainty::Numeric { .. } | Certainty::Traced);
-                Some(Said::of(
+                Some(Said::judge(
                     !open,
                     !numeric,
                     AnswerVerdict::keeps_promise(&answer, t),
@@ -53,8 +53,8 @@ impl Said {
         }
     }
 
-    /// W at the pose and finite mobility as decided, against the true ones. A geometry that is merely near gives no exact
-    /// figures, nor does a motion that is followed.
+    /// Judges W at the pose and the finite mobility of a decision. The figures of a nearly special geometry are not exact, nor are
+    /// those of a traced motion.
     #[must_use]
     pub fn of_decision(found: Option<&Decision>, truth: Truth) -> [Said; 2] {
         let Some(d) = found else {
@@ -64,8 +64,8 @@ impl Said {
         let (given, exact) = (d.verdict.is_decided(), d.verdict.word() != "near");
         let w = d.verdict.figures(d.verdict.rank()).0;
         [
-            Said::of(given, exact, is(w, truth.instantaneous)),
-            Said::of(
+            Said::judge(given, exact, is(w, truth.instantaneous)),
+            Said::judge(
                 given && !d.finite.is_undecided(),
                 exact && d.finite.is_proven(),
                 is(d.finite.mobility, truth.finite),
@@ -74,19 +74,19 @@ impl Said {
     }
 }
 
-/// What was said on one case.
+/// The judgement of one case.
 #[derive(Debug, Clone)]
 pub(crate) struct Reply {
-    /// What it is against the truth.
+    /// The judgement.
     pub said: Said,
-    /// How long it took; 0 where that was not asked.
+    /// The time of the answer in seconds; 0 if it was not measured.
     pub seconds: f64,
-    /// The case, where it is wrong and sure.
+    /// The name of the case if the answer is wrong and sure; empty otherwise.
     pub case: String,
 }
 
 impl Reply {
-    /// One that was not timed.
+    /// Returns a reply that was not timed.
     pub(crate) fn new(said: Said, case: impl FnOnce() -> String) -> Reply {
         let case = if said == Said::Wrong {
             case()
@@ -100,7 +100,7 @@ impl Reply {
         }
     }
 
-    /// What a method says of mechanisms that belong together, the worst of it; `None` where it does not apply to one.
+    /// Returns the worst reply of a method for mechanisms that belong together; `None` if it does not apply to one of them.
     pub(crate) fn of_method(
         method: &dyn MobilityMethod,
         all: &[(&Mechanism, StateId, Truth)],
@@ -125,7 +125,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Counts a reply.
+    /// Adds a reply.
     pub(crate) fn add(&mut self, reply: &Reply) {
         self.of[reply.said as usize] += 1;
         self.seconds.push(reply.seconds);
@@ -134,12 +134,12 @@ impl Tally {
         }
     }
 
-    /// All that were asked.
+    /// Returns the number of replies.
     pub(crate) fn total(&self) -> usize {
         self.of.iter().sum()
     }
 
-    /// The share of one of [`Said`], in per cent; 0 of none.
+    /// Returns the share of one of [`Said`] in per cent; 0 if there are no replies.
     #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     pub(crate) fn percent(&self, said: Said) -> f64 {
         100.0 * self.of[said as usize] as f64 / self.total().max(1) as f64

@@ -29,8 +29,8 @@ use record::{Record, Trial};
 use search_method::Way;
 use std::hint::black_box;
 
-/// The built-in mechanisms that are looked at unless others are named, beside a planar ladder whose diagram does not fit: few variants and many, special geometry, coupled
-/// joints, planar mode, loads to rank by.
+/// The built-in mechanisms that are compared by default, in addition to a planar ladder whose diagram does not fit. They have few or
+/// many variants, special geometry, coupled joints, planar mode, or loads to rank by.
 pub const MECHANISMS: [&str; 6] = [
     "gripper-10",
     "gripper-10-loaded",
@@ -198,7 +198,7 @@ fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunEr
     })
 }
 
-/// The nodes of a search that was stopped, and the width of its bracket of the determinate variants in per cent of the estimate.
+/// Returns the nodes of a stopped search, and the width of its bracket of the determinate variants in per cent of the estimate.
 fn bracket(outcome: &Outcome) -> Option<(f64, f64)> {
     let estimate = outcome.estimates()[0].filter(|e| e.mean > 0.0)?;
     let nodes = outcome.diagrams.as_ref()?.determinate.nodes;

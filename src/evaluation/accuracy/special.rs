@@ -1,7 +1,7 @@
 //! Mechanisms of special geometry with one joint off, made from a seed and written with so many decimals.
 
 use super::Truth;
-use super::change::{Noise, at_its_word};
+use super::change::{Noise, with_exact_decimals};
 use crate::file::text::mechanism_from_str;
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
@@ -50,9 +50,9 @@ impl SpecialKind {
     #[must_use]
     pub fn figures(self, off: bool) -> Truth {
         match (self, off) {
-            (_, false) => Truth::of(1, 1),
-            (SpecialKind::Rods, true) => Truth::of(1, 0),
-            (_, true) => Truth::of(0, 0),
+            (_, false) => Truth::new(1, 1),
+            (SpecialKind::Rods, true) => Truth::new(1, 0),
+            (_, true) => Truth::new(0, 0),
         }
     }
 
@@ -144,9 +144,9 @@ impl SpecialKind {
         file.text(self.name())
     }
 
-    /// A special one of whole hundredths, with the joint, whether it is the axis rather than the point, and the coordinate that
-    /// take it off; `None` where directions are no fractions.
-    pub(crate) fn at_its_word(
+    /// Returns a special mechanism with coordinates in whole hundredths, and the place that displaces it: the joint, whether its axis
+    /// is tilted instead of its point moved, and the coordinate. Returns `None` if directions are irrational.
+    pub(crate) fn with_place(
         self,
         noise: &mut Noise,
     ) -> Option<(Mechanism, (usize, bool, usize))> {
@@ -158,7 +158,7 @@ impl SpecialKind {
         };
         let text = self.text(0.0, 2, false, noise);
         let m = mechanism_from_str("special.toml", &text).expect("a generated file is valid");
-        Some((at_its_word(&m), place))
+        Some((with_exact_decimals(&m), place))
     }
 }
 
@@ -171,7 +171,7 @@ pub(crate) struct Sketch {
 }
 
 impl Sketch {
-    /// One of some links, in this order; joints bring along those that are missing.
+    /// Returns a sketch with these links in this order. Joints add further links.
     pub(crate) fn with_links<T: ToString>(links: impl IntoIterator<Item = T>) -> Sketch {
         Sketch {
             links: links.into_iter().map(|l| l.to_string()).collect(),
@@ -179,7 +179,7 @@ impl Sketch {
         }
     }
 
-    /// A joint between two links, at a point and about an axis written as the file is to have them.
+    /// Adds a joint between two links. Its point and axis are written to the file unchanged.
     pub(crate) fn joint(&mut self, ends: [&str; 2], kind: &str, point: &str, axis: &str) {
         for end in ends {
             if !self.links.iter().any(|l| l == end) {
@@ -195,7 +195,7 @@ impl Sketch {
         self.count += 1;
     }
 
-    /// A hinge along z at a place of the plane of x and y.
+    /// Adds a hinge along z at a point of the x-y plane.
     pub(crate) fn pin(&mut self, ends: [&str; 2], [x, y]: [i64; 2]) {
         self.joint(ends, "revolute", &format!("[{x}, {y}, 0]"), "[0, 0, 1]");
     }

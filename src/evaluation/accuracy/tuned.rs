@@ -64,7 +64,7 @@ fn tally(cases: &[Case], of: Elimination, tolerances: &[f64]) -> Vec<[usize; 2]>
     (0..tolerances.len()).map(at).collect()
 }
 
-/// Returns the first and the last number of the longest run of good numbers below `count`; of equally long runs the first one.
+/// Returns the first and the last number of the longest run of good numbers below `count`. Of equally long runs it is the first one.
 pub(super) fn longest_run(count: usize, good: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
     let (mut best, mut begun) = (None::<(usize, usize)>, None);
     for n in 0..count {

@@ -8,15 +8,15 @@ use crate::format::{brief, grouped, list};
 
 /// Which way to take, in three lines.
 pub const USE_WHEN: [&str; 3] = [
-    "Where the diagram fits into --nodes, take it whole: its counts are exact, and --check prime proves them over a second prime.",
-    "Where it does not, a search that is stopped gives a bracket of the counts: raise --nodes to narrow it.",
+    "If the diagram fits into --nodes, take it whole: its counts are exact, and --check prime proves them over a second prime.",
+    "If it does not, a search that is stopped gives a bracket of the counts: raise --nodes to narrow it.",
     "For a ranking leave --pool to its default: the cheapest 20,000 are scored, and then all that could still win.",
 ];
 
 /// A kind of ways with how many times the time of the whole diagram each takes, and its wrong answers in per cent.
 type Kind = (&'static str, Vec<(f64, f64)>);
 
-/// The kinds of ways over some trials.
+/// Returns the kinds of ways over some trials.
 fn kinds(trials: &[Trial]) -> Vec<Kind> {
     let mut kinds: Vec<Kind> = Vec::new();
     for trial in trials {
@@ -49,7 +49,8 @@ fn kinds(trials: &[Trial]) -> Vec<Kind> {
     kinds
 }
 
-/// Every way on every mechanism: its wrong answers against its time, beside those of the whole diagram over one prime.
+/// Returns a chart of every way on every mechanism: its wrong answers against its time, relative to that of the whole diagram over one
+/// prime.
 #[must_use]
 pub fn overview(trials: &[Trial], machine: &Machine) -> Chart {
     let series = kinds(trials).into_iter().map(|(name, points)| Series {
@@ -60,8 +61,8 @@ pub fn overview(trials: &[Trial], machine: &Machine) -> Chart {
     Chart {
         title: "Ways of searching: wrong answers against time".to_owned(),
         subtitle: format!(
-            "A point for each way and mechanism: of the variants looked at those judged wrongly, of a pool the best that it misses. \
-             On {machine}."
+            "A point for each way and mechanism: the share of the examined variants that are judged wrongly, or of the best that a \
+             pool misses. On {machine}."
         ),
         x: Axis {
             label: format!(
@@ -78,7 +79,7 @@ pub fn overview(trials: &[Trial], machine: &Machine) -> Chart {
     }
 }
 
-/// Which kinds of ways are never wrong, how wrong others are at most, and how long each takes.
+/// Returns a sentence with the largest share of wrong answers of each kind of ways, and with its times.
 #[must_use]
 pub fn conclusion(trials: &[Trial]) -> String {
     let told = kinds(trials).into_iter().map(|(name, points)| {
@@ -101,7 +102,8 @@ pub fn conclusion(trials: &[Trial]) -> String {
     format!("{}.", told.collect::<Vec<_>>().join("; "))
 }
 
-/// The width of the bracket of the determinate variants against the budget of nodes, of searches that are stopped; none where none is.
+/// Returns a chart of stopped searches: the width of the bracket of the determinate variants against the budget of nodes. Returns `None`
+/// if no search is stopped.
 #[must_use]
 pub fn brackets(trials: &[Trial], machine: &Machine) -> Option<Chart> {
     let of = |trial: &Trial| {
@@ -134,7 +136,7 @@ pub fn brackets(trials: &[Trial], machine: &Machine) -> Option<Chart> {
     })
 }
 
-/// How wide the bracket of each stopped search is, in words.
+/// Returns a sentence with the width of the bracket of each stopped search.
 fn bracket_sentence(chart: &Chart) -> String {
     let told = chart.series.iter().map(|s| {
         let each = s
@@ -189,7 +191,8 @@ pub fn wrong(trial: &Trial) -> String {
     }
 }
 
-/// Names and texts of every file, `index.html` last, so that it is there only once all that it shows is; `made` says how.
+/// Returns the names and texts of all files. `index.html` is the last, so that it exists only after the files that it shows. `made` is
+/// the paragraph on how they were made.
 #[must_use]
 pub fn files(trials: &[Trial], machine: &Machine, made: &str) -> Vec<(String, String)> {
     let mut files = vec![("searches.csv".to_owned(), record::csv(trials))];

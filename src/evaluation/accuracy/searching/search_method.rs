@@ -53,12 +53,12 @@ impl Way {
         request
     }
 
-    /// Whether it is what others are compared with: the whole diagram over one prime.
+    /// Returns whether it is the whole diagram over one prime, with which the others are compared.
     pub(super) fn is_whole(self) -> bool {
         self == Way::Diagram(Check::None)
     }
 
-    /// What kind of way it is.
+    /// Returns the kind of way.
     pub(super) fn kind(self) -> &'static str {
         match self {
             Way::Diagram(_) => "whole diagram",

@@ -51,13 +51,13 @@ impl Special {
                     axis,
                     coordinate,
                     unit,
-                    truth: [case.truth, Truth::of(0, 0)],
+                    truth: [case.truth, Truth::new(0, 0)],
                 })
             })
     }
 
     fn drawn(kind: SpecialKind, noise: &mut Noise) -> Option<Special> {
-        let (mechanism, (joint, axis, coordinate)) = kind.at_its_word(noise)?;
+        let (mechanism, (joint, axis, coordinate)) = kind.with_place(noise)?;
         Some(Special {
             mechanism,
             joint,
@@ -85,8 +85,8 @@ impl Special {
     }
 }
 
-/// Special mechanisms with one coordinate displaced exactly, by the first to the sixteenth digit: a method is right where it is
-/// right about both.
+/// Returns the study of special mechanisms with one coordinate displaced exactly, by the first to the sixteenth digit. A method is right if it is
+/// right about both the special and the displaced mechanism.
 pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (each, step) = if effort.quick { (1, 5) } else { (4, 1) };
     let exponents: Vec<i32> = (-16..=-1).step_by(step).collect();
@@ -120,8 +120,8 @@ pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -
 /// The size of mechanisms of [`SpecialKind`].
 const SIZE: f64 = 2.0;
 
-/// Special mechanisms of so many decimals with one joint off: below half a unit of the last digit the special geometry is true,
-/// above one and a half the offset; between them the digits allow both.
+/// Returns the study of special mechanisms of a given number of decimals with one joint displaced. Below half a unit of the last digit the special
+/// geometry is true, above one and a half units the offset. Between them the digits allow both.
 pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, decimals): (usize, &[i32]) = if effort.quick {
         (1, &[4, 9])
@@ -168,10 +168,10 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
     )
 }
 
-/// Tolerances of the singular values that are asked beside.
+/// Tolerances of the singular values that are compared with the automatic choice.
 const TOLERANCES: [f64; 2] = [1e-9, 1e-6];
 
-/// Every built-in mechanism turned at random and rounded, judged by the mechanism as it was.
+/// Returns the study of every built-in mechanism, turned at random and rounded. The original mechanism is the truth.
 pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (step, turns) = if effort.quick { (4, 1) } else { (1, 3) };
     // Finest first: the axis ascends.
@@ -206,7 +206,7 @@ pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) ->
         let svd = closure.map(|c| Elimination::Svd.mobilities(&c, &TOLERANCES));
         let svd = [0, 1].map(|n| {
             let w = svd.as_ref().and_then(|w| w[n]);
-            Said::of(w.is_some(), false, w == Some(case.truth.instantaneous))
+            Said::judge(w.is_some(), false, w == Some(case.truth.instantaneous))
         });
         let reply = |said| {
             Some(Reply::new(said, || {

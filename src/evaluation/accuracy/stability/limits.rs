@@ -20,7 +20,7 @@ use crate::rank::numeric::Elimination;
 use std::collections::HashSet;
 use std::sync::{Mutex, PoisonError};
 
-/// Rows of four-bars and lazy tongs of 1 to 200 contours. A method that takes long is not asked about longer ones.
+/// Returns the study of rows of four-bars and lazy tongs of 1 to 200 contours. A slow method is not asked about longer ones.
 pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
     const SIZES: [u32; 10] = [1, 2, 3, 5, 10, 20, 35, 60, 100, 200];
     const SHAPES: [LatticeKind; 2] = [LatticeKind::FourBars, LatticeKind::Scissors];
@@ -52,7 +52,7 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
                 clock: effort.clock,
                 repeat: if v < 4 { 5 } else { 1 },
             };
-            let all = [(&m, StateId::FREE, Truth::of(1, 1))];
+            let all = [(&m, StateId::FREE, Truth::new(1, 1))];
             let (reply, time) = watch.time(|| Reply::of_method(*method, &all));
             if time.median > patience {
                 slow.insert((method.name(), case));
@@ -64,7 +64,7 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
     })
 }
 
-/// Mechanisms in other units: every length times 10^-6 to 10^6.
+/// Returns the study of mechanisms in other units: every length times 10^-6 to 10^6.
 pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let step = if effort.quick { 3 } else { 1 };
     let exponents: Vec<i32> = (-6..=6).step_by(step).collect();
@@ -101,7 +101,7 @@ pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     )
 }
 
-/// Rows of toggles that have one freedom at the pose and none in truth.
+/// Returns the study of rows of toggles that have one freedom at the pose and none in truth.
 pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, most) = if effort.quick { (1, 3) } else { (3, 6) };
     let study = Study {
@@ -111,10 +111,10 @@ pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
         column: "order",
         values: (1..=most).map(|l| f64::from(1u32 << l)).collect(),
         view: View::Regions,
-        advice: "Where auto leaves a range beyond the second order, the motion that is left cannot be told from none: measure it.",
+        advice: "If auto gives a range beyond the second order, the rest of the motion is too small to decide: measure it.",
         rows: Vec::new(),
     };
-    let truth = Truth::of(1, 0);
+    let truth = Truth::new(1, 0);
     let names = registry::ALL.map(MobilityMethod::name);
     study.asked(names, each, progress, |v, case| {
         let text = toggles(v + 1, &mut Noise::new(effort.seed, 100 * (v + 1) + case));
@@ -128,9 +128,8 @@ pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
 /// The contours of the rows of four-bars whose points are drawn at random.
 const CONTOURS: u32 = 3;
 
-/// The rank modulo a random prime of 8 to 61 bits: of a rigid row of four-bars whose points are drawn at random, and of built-in
-/// mechanisms of rational coordinates. A minor of the former is of degree 2 a contour in the points, which the bound of Schwartz
-/// and Zippel speaks of.
+/// Returns the study of the rank modulo a random prime of 8 to 61 bits, for a rigid row of four-bars with random points and for built-in mechanisms
+/// with rational coordinates. A minor of the row has degree 2 per contour in the points, which gives the bound of Schwartz and Zippel.
 pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     const BITS: [u32; 10] = [8, 10, 12, 14, 16, 20, 24, 32, 48, 61];
     let mut chain = lattice::mechanism(LatticeKind::FourBars, CONTOURS as usize);
@@ -174,7 +173,7 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
                     Some(closure.columns.len() - modular::rank(&exact, &closure))
                 });
                 let (free, seconds) = (free?, time.median);
-                let said = Said::of(true, true, i64::try_from(free) == Ok(w));
+                let said = Said::judge(true, true, i64::try_from(free) == Ok(w));
                 let reply = Reply::new(said, || format!("{} modulo {prime}", m.name));
                 Some(Reply { seconds, ..reply })
             };

@@ -1,5 +1,5 @@
-//! One study: a range of one quantity, cases at each of its values, what is asked of each, and the truth. All studies have the same
-//! loop, the same tally, the same table, one chart and one conclusion.
+//! One study: a range of one quantity, cases at each of its values, the questions about each case, and the truth. All studies have the
+//! same loop, the same tally, the same table, one chart and one conclusion.
 
 mod conclusion;
 
@@ -20,19 +20,20 @@ pub struct Effort {
     pub clock: Clock,
 }
 
-/// Is told the study under way, the steps done and their number.
+/// Receives the current study, the number of finished steps and the number of all steps.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, usize, usize);
 
 /// How a study is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum View {
-    /// Where each row is right.
+    /// The values for which each row is right.
     Regions,
-    /// Right ones, and those that are wrong and sure, as shares.
+    /// The shares of answers that are right, and of those that are wrong and sure.
     Shares,
     /// The time of each row, asked one after another.
     Times,
-    /// Wrong ones of each row as a share by decades, beside the bound of Schwartz and Zippel: this over the prime. They are timed.
+    /// The share of wrong answers of each row by decades, with the bound of Schwartz and Zippel, which is this degree over the prime.
+    /// The answers are timed.
     Errors(u32),
 }
 
@@ -47,19 +48,19 @@ pub struct Study {
     pub axis: &'static str,
     /// Its head in the table.
     pub column: &'static str,
-    /// Where it was looked at, ascending.
+    /// The values of the quantity, ascending.
     pub values: Vec<f64>,
     /// How it is drawn.
     pub view: View,
-    /// What to do about it.
+    /// Advice to the user.
     pub advice: &'static str,
-    /// What was asked, with the tally at each value.
+    /// The name of each row, with its tally at each value.
     pub(super) rows: Vec<(String, Vec<Tally>)>,
 }
 
 impl Study {
-    /// Asks about so many cases at each value: a reply for each row, `None` where it has none. What is not timed is asked in
-    /// parallel.
+    /// Asks about the given number of cases at each value. `ask` returns a reply for each row, `None` if it has none. Cases run in
+    /// parallel unless they are timed.
     pub(super) fn asked(
         mut self,
         rows: impl IntoIterator<Item = impl ToString>,
@@ -93,7 +94,7 @@ impl Study {
         matches!(self.view, View::Times | View::Errors(_))
     }
 
-    /// The table: a line for each row and value that was asked about.
+    /// Returns the table, with a line for each row and each value that has replies.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut heads = vec!["asked", self.column, "cases", "right", "undecided"];
@@ -112,7 +113,7 @@ impl Study {
         csv::table(&heads, rows)
     }
 
-    /// The picture.
+    /// Returns the chart as SVG.
     #[must_use]
     pub fn svg(&self) -> String {
         let share = |said: Said| move |t: &Tally| t.percent(said);
@@ -122,8 +123,8 @@ impl Study {
                 let mut series = self.lines("", Style::Line, share(Said::Right));
                 let sure = self.lines(", wrong and sure", Style::Dashed, share(Said::Wrong));
                 series.extend(sure.into_iter().filter(|s| s.points.iter().any(|p| p.1 > 0.0)));
-                let about = "Solid: right. Dashed, where there are any: wrong and sure. The rest is undecided, or wrong but said not to \
-                             be exact.";
+                let about = "Solid: right. Dashed, if there are any: wrong and sure. The rest is undecided, or wrong but reported as \
+                             not exact.";
                 self.chart(about.to_owned(), "share of answers, %", Scale::Linear, series)
             }
             View::Times => {
@@ -138,7 +139,7 @@ impl Study {
                     points: self.values.iter().map(|b| (*b, bound(degree, *b))).collect(),
                     style: Style::Dashed,
                 });
-                let about = format!("Wrong ranks. The bound is {degree} over the least prime of so many bits.");
+                let about = format!("Wrong ranks. The bound is {degree} over the least prime of each size.");
                 self.chart(about, "wrong ranks, %", Scale::LogAndZero(-3), series)
             }
         }
@@ -159,7 +160,7 @@ impl Study {
         }
     }
 
-    /// A line for each row, where it was asked.
+    /// Returns a line for each row through the values that have replies.
     fn lines(&self, after: &str, style: Style, y: impl Fn(&Tally) -> f64) -> Vec<Series> {
         let line = |(name, tallies): &(String, Vec<Tally>)| Series {
             name: format!("{name}{after}"),
@@ -207,12 +208,12 @@ impl Study {
     }
 }
 
-/// The bound of Schwartz and Zippel for a prime of so many bits, in per cent.
+/// Returns the bound of Schwartz and Zippel in per cent, for a prime of the given number of bits.
 fn bound(degree: u32, bits: f64) -> f64 {
     (100.0 * f64::from(degree) / (bits - 1.0).exp2()).min(100.0)
 }
 
-/// Bands about the values of a log axis, neighbours of one kind as one.
+/// Returns bands around the values of a log axis. Neighbours of the same kind are one band.
 fn bands(values: &[f64], kinds: impl IntoIterator<Item = VerdictKind>) -> Vec<Band> {
     let between = |a: usize, b: usize| (values[a] * values[b]).sqrt();
     let last = values.len().saturating_sub(1);

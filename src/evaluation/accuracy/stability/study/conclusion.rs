@@ -7,7 +7,7 @@ use crate::accuracy::tuned::longest_run;
 use crate::format::{duration, grouped, list, scientific};
 
 impl Study {
-    /// What came of it, from the data.
+    /// Returns the conclusion from the data.
     #[must_use]
     pub fn conclusion(&self) -> String {
         match self.view {
@@ -18,7 +18,7 @@ impl Study {
         }
     }
 
-    /// Which rows are always right, and where others are right as often as they ever are.
+    /// Returns a sentence with the rows that are always right, and the values at which the others are right most often.
     fn stretches(&self) -> String {
         let (mut always, mut rest) = (Vec::new(), Vec::new());
         for (name, tallies) in &self.rows {
@@ -53,7 +53,7 @@ impl Study {
         format!("Right in all cases throughout: {told}.{rest}")
     }
 
-    /// What is said of each row over all values, and where most of it is wrong and sure.
+    /// Returns the shares of each row over all values, with the value at which most of its answers are wrong and sure.
     fn shares(&self) -> String {
         let told = self.rows.iter().map(|(name, tallies)| {
             let mut sum = Tally::default();
@@ -78,7 +78,7 @@ impl Study {
         format!("{}.", told.join("; "))
     }
 
-    /// How long each row takes at the largest value it was asked about, and how that grows.
+    /// Returns the time of each row at the largest value that has replies, and how it grows.
     fn times(&self) -> String {
         let told = self.rows.iter().filter_map(|(name, tallies)| {
             let times = self
@@ -98,7 +98,7 @@ impl Study {
         format!("Times: {}.", told.collect::<Vec<_>>().join("; "))
     }
 
-    /// Where each row has errors, how many more or fewer than the bound allows, and its time.
+    /// Returns the values at which each row has errors, whether the bound allows so many, and the time of the row.
     fn errors(&self, degree: u32) -> String {
         let told = self.rows.iter().enumerate().map(|(n, (name, tallies))| {
             let of: Vec<_> = self.asked_of(tallies).collect();
