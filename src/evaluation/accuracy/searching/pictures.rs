@@ -210,8 +210,9 @@ pub fn files(trials: &[Trial], machine: &Machine, made: &str) -> Vec<(String, St
         .chain(brackets)
     {
         let link = "<p><a href=\"searches.csv\">searches.csv</a></p>";
-        parts.push((chart.title.clone(), sentence, chart.svg() + link));
-        files.push((format!("{name}.svg"), chart.svg()));
+        let svg = chart.svg();
+        parts.push((chart.title, sentence, svg.clone() + link));
+        files.push((format!("{name}.svg"), svg));
     }
     parts.push(("Mechanism by mechanism".to_owned(), found, String::new()));
     files.push((
