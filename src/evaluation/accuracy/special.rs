@@ -146,10 +146,7 @@ impl SpecialKind {
 
     /// Returns a special mechanism with coordinates in whole hundredths, and the place that displaces it: the joint, whether its axis
     /// is tilted instead of its point moved, and the coordinate. Returns `None` if directions are irrational.
-    pub(crate) fn with_place(
-        self,
-        noise: &mut Noise,
-    ) -> Option<(Mechanism, (usize, bool, usize))> {
+    pub(crate) fn with_place(self, noise: &mut Noise) -> Option<(Mechanism, (usize, bool, usize))> {
         let place = match self {
             SpecialKind::Door => (1, false, 0),
             SpecialKind::FourBar => (2, true, 0),

@@ -175,7 +175,7 @@ pub enum WarningKind {
 }
 
 /// Returns the first `most` items of a list as text, with the number of further items.
-pub(super) fn first_of(all: &[impl Display], most: usize) -> String {
+pub(crate) fn first_of(all: &[impl Display], most: usize) -> String {
     let more = match all.len().saturating_sub(most) {
         0 => String::new(),
         n => format!(" and {n} more"),

@@ -1,5 +1,6 @@
 //! What is asked of an import, and what it mapped, approximated and dropped.
 
+use crate::file::warning::first_of;
 use crate::format::plural;
 use itertools::Itertools;
 use std::collections::BTreeMap;
@@ -213,12 +214,8 @@ impl Report {
         } else {
             " (end effectors, ends of chains, a floating base; --working-link to choose)"
         };
-        let shown = names.iter().take(8).format(", ");
-        let more = match names.len() {
-            n @ 9.. => format!(" and {} more", n - 8),
-            _ => String::new(),
-        };
-        line(&mut out, "output", &format!("{shown}{more}{hint}"));
+        let shown = first_of(names, 8);
+        line(&mut out, "output", &format!("{shown}{hint}"));
         out
     }
 
@@ -228,7 +225,11 @@ impl Report {
         let mut out = String::new();
         if self.coupling_rows > 0 {
             let n = self.coupling_rows;
-            let [rows, them] = [["rows", "them"], ["row", "it"]][usize::from(n == 1)];
+            let (rows, them) = if n == 1 {
+                ("row", "it")
+            } else {
+                ("rows", "them")
+            };
             let what = format!(
                 "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
             );
