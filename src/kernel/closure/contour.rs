@@ -173,7 +173,8 @@ fn blocks(mechanism: &Mechanism, present: &[JointId]) -> Vec<Vec<JointId>> {
             let Some((from, joint)) = back[*deeper] else {
                 break;
             };
-            (*deeper, _) = (from, out.push(present[joint]));
+            *deeper = from;
+            out.push(present[joint]);
         }
         out
     };
