@@ -31,28 +31,28 @@ use std::fmt::Display;
 /// A problem and the path of the item it concerns.
 pub(crate) type Finding = (Vec<DocumentStep>, ProblemKind);
 
-/// Most problems that are told; a file of a few megabytes can hold a hundred thousand, and each is looked up and drawn.
+/// Maximum number of reported problems. A file of a few megabytes can have a hundred thousand, and each is located and drawn.
 pub(crate) const TOLD: usize = 100;
 
-/// Problems found so far, with where they stand: the first of them, and how many more there are. They are found where
-/// expressions are read, so this knows the numbers that have names, too.
+/// The problems found so far with their places: the first of them, and the number of further ones. Expressions are read here too, so
+/// it has the named numbers of the file.
 #[derive(Default)]
 pub(crate) struct Findings {
     told: RefCell<Vec<Finding>>,
     more: Cell<usize>,
-    /// What the file's parameters stand for.
+    /// The values of the file's parameters.
     names: BTreeMap<String, Expr>,
-    /// Those that an expression has.
+    /// The parameters that an expression uses.
     used: RefCell<BTreeSet<String>>,
 }
 
 impl Findings {
-    /// From now on these are numbers with names.
+    /// Sets the numbers that expressions know by name.
     pub(crate) fn know(&mut self, names: BTreeMap<String, Expr>) {
         self.names = names;
     }
 
-    /// The value of an expression; where `pi_is_a_number`, outside of angles, too.
+    /// Returns the value of an expression. With `pi_is_a_number`, pi may be used outside of angles.
     pub(crate) fn expression(&self, text: &str, pi_is_a_number: bool) -> Result<Expr, ExprError> {
         Expr::with_names(text, pi_is_a_number, &mut |word| {
             let found = self.names.get(word)?;
@@ -61,12 +61,12 @@ impl Findings {
         })
     }
 
-    /// The names there are.
+    /// Returns the names of all parameters.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.names.keys().map(String::as_str)
     }
 
-    /// Tells of names that no expression had.
+    /// Reports parameters that no expression uses.
     pub(crate) fn tell_unused(&self) {
         for name in self.names().filter(|n| !self.used.borrow().contains(*n)) {
             let at = self.key("parameter").key(name);
@@ -85,12 +85,12 @@ impl Findings {
         self.root().key(key)
     }
 
-    /// How many there are.
+    /// Returns the number of problems.
     pub(crate) fn count(&self) -> usize {
         self.told.borrow().len() + self.more.get()
     }
 
-    /// Those that are told.
+    /// Returns the reported problems.
     pub(crate) fn told(self) -> Vec<Finding> {
         let (mut told, count) = (self.told.into_inner(), self.more.get());
         if count > 0 {
@@ -99,7 +99,7 @@ impl Findings {
         told
     }
 
-    /// What was made of the file, if nothing is wrong with it.
+    /// Returns what was made of the file, or the problems if there are any.
     pub(crate) fn unless<T>(self, made: T) -> Result<T, Vec<Finding>> {
         if self.count() == 0 {
             Ok(made)

@@ -65,7 +65,7 @@ pub(crate) fn options(
     options
 }
 
-/// What an entry of a list stands for; none where it is bad or the joint forbids it.
+/// Returns the option of an entry of a list; `None` if it is not valid or the joint forbids it.
 fn allowed(
     entry: &JointEntry,
     item: &OptionEntry,
@@ -83,7 +83,7 @@ fn allowed(
 /// coordinates were rounded.
 const NO_IMAGE: f64 = 1e-3;
 
-/// Tells pairs that are no mirror images.
+/// Reports pairs that are not mirror images.
 fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
     let planes = Plane::of_pairs(mechanism, pairs);
     let Some((_, misses)) = planes.first() else {

@@ -53,7 +53,7 @@ fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
     Some(each.collect())
 }
 
-/// What the part weighs at each diameter; none where the file does not say, or says it twice.
+/// Returns the mass of the part at each diameter; `None` if the file does not state it, or states it twice.
 fn part_mass(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
     let mass = t.positive("mass", &e.mass, 1.0);
     let density = t.positive("density", &e.density, 1.0);
@@ -93,7 +93,7 @@ fn gravity(t: &Place<'_>, e: &GripEntry) -> Toward {
     }
 }
 
-/// The accelerations of the gripper, each a case; one at rest where there are none, nothing where there are too many.
+/// Returns the accelerations of the gripper, each a load case. Without any it is one case at rest; `None` if there are too many.
 fn accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
     let (at, count) = (t.key("accelerations"), e.accelerations.len());
     if count > MOST {
@@ -165,14 +165,14 @@ fn transmission(
     Transmission::Unknown
 }
 
-/// The joints that a list names; shorter than the list where some are not known.
+/// Returns the joints that a list names, without unknown ones.
 fn joints(at: &Place<'_>, ids: &[String], m: &Mechanism) -> Vec<JointId> {
     at.entries(ids)
         .filter_map(|(at, id)| at.joint(m, id))
         .collect()
 }
 
-/// What contacts need of the rest of the table.
+/// Reports what contacts need of the rest of the table.
 fn contacts_go_with(t: &Place<'_>, spec: &GripSpec) {
     let levers = spec.load.as_ref().map(|l| l.levers);
     if levers.is_none() {

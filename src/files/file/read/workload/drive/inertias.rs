@@ -10,7 +10,7 @@ use crate::model::joint_type::JointType;
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{Mechanism, StateId};
 
-/// Tells what the table lacks.
+/// Reports a key that the table lacks.
 pub(super) fn lacks(t: &Place<'_>, other: &'static str) {
     let key = "drive";
     t.add(ProblemKind::KeyNeeds { key, other });
@@ -94,7 +94,7 @@ pub(crate) fn inertias(
     ([first, second.unwrap_or(first)], payload)
 }
 
-/// Inertia of a disc with its payload: as a whole, or as the sum of both; none where both are without inertia.
+/// Returns the inertia of a disc with its payload: the given sum, or the sum of both; `None` if neither has an inertia.
 fn loaded_inertia(
     t: &Place<'_>,
     whole: Option<f64>,
