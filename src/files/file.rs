@@ -91,7 +91,7 @@ impl Findings {
     }
 
     /// Returns the reported problems.
-    pub(crate) fn told(self) -> Vec<Finding> {
+    pub(crate) fn into_findings(self) -> Vec<Finding> {
         let (mut told, count) = (self.told.into_inner(), self.more.get());
         if count > 0 {
             told.push((Vec::new(), ProblemKind::More { count }));
@@ -104,7 +104,7 @@ impl Findings {
         if self.count() == 0 {
             Ok(made)
         } else {
-            Err(self.told())
+            Err(self.into_findings())
         }
     }
 }

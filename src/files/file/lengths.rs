@@ -15,7 +15,7 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 pub(crate) fn wrong_lengths(document: &Value) -> Vec<Finding> {
     let out = Findings::default();
     visit(&SCHEMA, document, "", &out.root());
-    out.told()
+    out.into_findings()
 }
 
 /// Visits a value by what its schema says of it; `owner` names the last thing with an id that it is part of.

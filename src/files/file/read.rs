@@ -84,7 +84,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let states = states(file, &out);
     let joints = joints(file, &links, &states, &out);
     if out.count() > 0 {
-        return Err(out.told());
+        return Err(out.into_findings());
     }
     let mut mechanism = Mechanism {
         name: file.name.clone(),
@@ -108,7 +108,7 @@ pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     };
     connected(&mechanism, &out);
     if !size(&mechanism, &out) {
-        return Err(out.told());
+        return Err(out.into_findings());
     }
     couplings(file, &mut mechanism, &out);
     mechanism.contours = contours(file, &mechanism, &out);

@@ -175,7 +175,7 @@ pub(crate) fn controls(file: &MechanismFile) -> Vec<Finding> {
     if let Ok(value) = serde_json::to_value(file) {
         below(&value, &out.root());
     }
-    out.told()
+    out.into_findings()
 }
 
 fn below(value: &Value, at: &Place<'_>) {

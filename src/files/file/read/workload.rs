@@ -117,6 +117,6 @@ fn workload<T>(
             mechanism,
             spec,
         }),
-        _ => Err(out.told()),
+        _ => Err(out.into_findings()),
     }
 }
