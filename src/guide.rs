@@ -58,5 +58,5 @@ pub mod adding {}
 #[doc = include_str!("guide/architecture.md")]
 pub mod architecture {}
 
-#[doc = include_str!("guide/changelog.md")]
+#[doc = include_str!("../CHANGELOG.md")]
 pub mod changelog {}
