@@ -14,7 +14,6 @@ pub mod special;
 pub mod stability;
 pub mod survey;
 pub mod timing;
-pub mod tuned;
 
 use crate::rank::method::{Answer, NoAnswer, Quantity};
 

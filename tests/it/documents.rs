@@ -127,10 +127,20 @@ fn the_guide_says_what_the_program_says() {
 #[test]
 fn the_pictures_are_what_the_program_draws() {
     let pictures: [(&str, &[&str]); 2] = [
-        ("gripper-10.svg", &["draw", "gripper-10"]),
+        (
+            "gripper-10.svg",
+            &[
+                "draw",
+                "gripper-10",
+                "--kind",
+                "kinematic",
+                "--self-stress",
+                "1",
+            ],
+        ),
         (
             "gripper-10-idea-1.svg",
-            &["draw", "gripper-10", "--idea", "1"],
+            &["draw", "gripper-10", "--kind", "kinematic", "--idea", "1"],
         ),
     ];
     for (name, command) in pictures {

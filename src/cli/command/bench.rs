@@ -1,6 +1,7 @@
 //! `ozols bench`.
 
-use crate::accuracy::lattice::ladder;
+use crate::accuracy::change::Noise;
+use crate::accuracy::lattice::{Scene, ladder};
 use crate::accuracy::searching::record::Trial;
 use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, record, trial};
@@ -117,8 +118,9 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     let (mechanisms, mut well) = load::each(files, &a.loops);
     let mut bar = Bar::new(args.quiet);
     let mut trials = Vec::new();
-    let ladder = a.files.is_empty().then(|| ladder(8));
-    for m in mechanisms.iter().map(|(_, m)| m).chain(&ladder) {
+    let hard = a.files.is_empty();
+    let hard = hard.then(|| ladder(Scene::Plane, 8, &mut Noise::new(1, 0)));
+    for m in mechanisms.iter().map(|(_, m)| m).chain(&hard) {
         match asked.run(m, &mut bar) {
             Ok(found) => trials.push(found),
             Err(e) => {

@@ -37,6 +37,24 @@ pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
     m
 }
 
+/// Returns a copy in which the points are stretched along each coordinate axis, by up to a share of their coordinates. What is searched
+/// stays.
+pub(crate) fn stretched(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
+    let mut m = mechanism.clone();
+    #[allow(clippy::cast_possible_truncation, reason = "near a million")]
+    let mut factor = || (1e6 * (1.0 + by * noise.uniform())) as i64;
+    let factors = [(); 3].map(|()| &Expr::from(factor()) * &power_of_ten(-6));
+    for joint in &mut m.joints {
+        let offered = joint.options.iter_mut().chain(&mut joint.unloading);
+        let offered = offered.map(|option| &mut option.frame);
+        for frame in offered.chain([&mut joint.frame]) {
+            let points = frame.point.iter_mut().zip(&factors);
+            points.for_each(|(x, factor)| *x = &*x * factor);
+        }
+    }
+    m
+}
+
 /// Returns a copy in which every decimal is exact, as a fraction is.
 #[must_use]
 pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {

@@ -119,18 +119,60 @@ pub fn toggles(levels: usize, noise: &mut Noise) -> String {
     file.text("toggles")
 }
 
-/// Returns a planar ladder: a four-bar, and three more hinges for each further contour, at random points, with four options each. The
-/// diagram of eight contours does not fit into the default budget.
+/// What the joints of a random ladder move in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scene {
+    /// Hinges across one plane.
+    Plane,
+    /// Hinges, balls, universal and cylindrical joints across one plane: what is in the plane and what is out of it fall apart.
+    AboutPlane,
+    /// Hinges through one point.
+    Sphere,
+    /// Hinges anywhere.
+    Space,
+}
+
+impl Scene {
+    /// All of them.
+    pub const ALL: [Scene; 4] = [Scene::Plane, Scene::AboutPlane, Scene::Sphere, Scene::Space];
+
+    /// Returns its name in pictures.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Scene::Plane => "plane",
+            Scene::AboutPlane => "in and out of a plane",
+            Scene::Sphere => "sphere",
+            Scene::Space => "space",
+        }
+    }
+}
+
+/// The options of the joints of a ladder.
+const OPTIONS: [&str; 4] = ["revolute", "cylindrical", "universal", "spherical"];
+
+/// Returns a ladder: a four-bar, and three more joints for each further contour, at random places, with four options each. The
+/// diagram of eight contours in a plane does not fit into the default budget.
 ///
 /// # Panics
 /// Never: the text is valid.
 #[must_use]
-pub fn ladder(contours: usize) -> Mechanism {
-    let mut noise = Noise::new(1, 0);
+pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
     let mut file = Sketch::default();
     let mut pin = |a: usize, b: usize| {
-        let at = [(); 2].map(|()| noise.draw_integer(10));
-        file.pin([&a.to_string(), &b.to_string()], at);
+        let mut three = || [(); 3].map(|()| noise.draw_integer(10));
+        let [x, y, z] = three();
+        let (point, axis) = match scene {
+            Scene::Plane | Scene::AboutPlane => ([x, y, 0], [0, 0, 1]),
+            Scene::Sphere => ([x, y, z + 1], [x, y, z + 1]),
+            Scene::Space => (three(), [x, y, z + 1]),
+        };
+        let kind = match (scene, usize::try_from(z % 8)) {
+            (Scene::AboutPlane, Ok(nth @ 0..4)) => OPTIONS[nth],
+            _ => OPTIONS[0],
+        };
+        let [point, axis] = [point, axis].map(|v| format!("{v:?}"));
+        file.joint([&a.to_string(), &b.to_string()], kind, &point, &axis);
     };
     for (a, b) in [(0, 1), (1, 3), (3, 2), (2, 0)] {
         pin(a, b);
@@ -143,9 +185,7 @@ pub fn ladder(contours: usize) -> Mechanism {
         pin(b, other);
         (side, other) = (a, b);
     }
-    let name = format!("planar-ladder-{contours}");
-    let options =
-        "[search]\noptions = [\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]\n";
-    let text = file.text(&name) + options;
+    let text = file.text(&format!("{scene:?}-ladder-{contours}").to_lowercase());
+    let text = format!("{text}[search]\noptions = {OPTIONS:?}\n");
     mechanism_from_str("ladder.toml", &text).expect("a generated file is valid")
 }

@@ -3,49 +3,34 @@
 use super::stability::Study;
 use super::survey::{MethodRecord, Survey};
 use super::timing::{Machine, quantile};
-use super::tuned::Tuned;
 use crate::chart::{Axis, Chart, Scale, Series, Style, page};
-use crate::format::{duration, list, scientific};
+use crate::format::{duration, list};
 use crate::rank::method::registry;
 use crate::score::outcome::pareto::front;
 
-/// A method, at its default tolerance or at its best: its median time of an answer in seconds, and the share of all cases that
-/// it is right about.
+/// A method: its median time of an answer in seconds, and the share of all cases that it is right about.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MethodPlace {
     /// Its name.
-    pub name: String,
+    pub name: &'static str,
     /// Seconds.
     pub seconds: f64,
     /// From 0 to 1.
     pub share: f64,
 }
 
-/// Every method that applies to some case, the floating-point ones at their best tolerance too, which does not change their
-/// time.
+/// Returns the place of every method that applies to some case.
 #[must_use]
 pub fn places(survey: &Survey) -> Vec<MethodPlace> {
-    let standings: Vec<MethodRecord> = (0..registry::ALL.len())
-        .map(|m| survey.standing(m))
-        .collect();
-    let default = registry::ALL
-        .iter()
-        .zip(&standings)
-        .filter(|(_, s)| s.applies > 0);
-    let default = default.map(|(m, s)| MethodPlace {
-        name: m.name().to_owned(),
+    let standings = registry::ALL.iter().enumerate();
+    let standings = standings.map(|(m, method)| (method.name(), survey.standing(m)));
+    let places = standings.filter(|(_, s)| s.applies > 0);
+    let place = |(name, s): (_, MethodRecord)| MethodPlace {
+        name,
         seconds: s.seconds,
         share: s.share,
-    });
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    let tuned = survey.tuned.iter().filter_map(|t| {
-        Some(MethodPlace {
-            name: tuned_name(t)?,
-            seconds: standings[t.method].seconds,
-            share: t.right as f64 / survey.cases.len().max(1) as f64,
-        })
-    });
-    default.chain(tuned).collect()
+    };
+    places.map(place).collect()
 }
 
 /// The places that no other one beats in both share and time, the fastest first.
@@ -59,16 +44,8 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// The name of a method at its best tolerance; none where that is no better than its default.
-#[must_use]
-pub fn tuned_name(tuned: &Tuned) -> Option<String> {
-    let better = tuned.right > tuned.right_by_default;
-    let name = registry::ALL[tuned.method].name();
-    better.then(|| format!("{name} at {}", scientific(tuned.tolerance)))
-}
-
-/// Share of right answers against median time of an answer; floating-point methods at their default tolerance, and at
-/// their best where that is another. The tolerance does not change their time.
+/// Returns a chart of the share of right answers against the median time of an answer; floating-point methods have their default
+/// tolerance.
 #[must_use]
 pub(crate) fn share_time(survey: &Survey, of: &str, machine: &Machine) -> Chart {
     let places = places(survey);
@@ -85,7 +62,7 @@ pub(crate) fn share_time(survey: &Survey, of: &str, machine: &Machine) -> Chart 
         style: Style::Steps,
     }];
     series.extend(places.iter().map(|p| Series {
-        name: p.name.clone(),
+        name: p.name.to_owned(),
         points: vec![at(p)],
         style: Style::Points,
     }));
@@ -124,24 +101,6 @@ pub fn repeated(survey: &Survey) -> String {
             percent(quantile(&spread, 0.5))
         ),
     }
-}
-
-/// The best and the default tolerance of each floating-point method, in words.
-#[must_use]
-pub fn tolerances(survey: &Survey) -> String {
-    let one = |t: &Tuned| {
-        let (name, right) = (registry::ALL[t.method].name(), t.right);
-        let default = scientific(t.default);
-        match tuned_name(t) {
-            Some(best) => format!(
-                "{best} ({right}; {} at {default}, its default)",
-                t.right_by_default
-            ),
-            None => format!("{name} at its default of {default} ({right})"),
-        }
-    };
-    let all: Vec<String> = survey.tuned.iter().map(one).collect();
-    format!("Floating point is right most often with {}.", list(&all))
 }
 
 /// Returns sentences with the methods that are right on all cases, and those on the Pareto front of share and time.

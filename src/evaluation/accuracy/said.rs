@@ -100,6 +100,11 @@ impl Reply {
         }
     }
 
+    /// Returns the reply with the time that it took, in seconds.
+    pub(crate) fn taking(self, seconds: f64) -> Reply {
+        Reply { seconds, ..self }
+    }
+
     /// Returns the worst reply of a method for mechanisms that belong together; `None` if it does not apply to one of them.
     pub(crate) fn of_method(
         method: &dyn MobilityMethod,

@@ -1,7 +1,9 @@
-//! Where numbers fail: closeness to special geometry, digits, size, unit, shakiness and prime moved until answers turn wrong.
+//! Where numbers fail: closeness to special geometry, tolerance, digits, size, unit, shakiness, prime, model and costs moved until answers
+//! turn wrong.
 
 mod closeness;
 mod limits;
+mod scenes;
 mod study;
 
 use super::cases::Case;
@@ -14,11 +16,14 @@ pub fn all(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study>
     let some: Vec<Case> = cases.iter().step_by(step).cloned().collect();
     vec![
         closeness::distance(cases, effort, progress),
+        closeness::tolerance(cases, effort, progress),
         closeness::digits(effort, progress),
         closeness::rounded(&some, effort, progress),
         limits::size(effort, progress),
         limits::scale(&some, effort, progress),
         limits::prime(&some, effort, progress),
         limits::shaky(effort, progress),
+        scenes::model(cases, effort, progress),
+        scenes::first_idea(cases, effort, progress),
     ]
 }

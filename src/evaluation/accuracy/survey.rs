@@ -3,7 +3,6 @@
 use super::AnswerVerdict;
 pub use super::cases::{Case, cases, generated};
 use super::timing::{Stopwatch, Timing, quantile};
-use super::tuned::{Tuned, tuned};
 use crate::format::csv;
 use crate::rank::method::registry;
 use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
@@ -54,8 +53,6 @@ pub struct Survey {
     pub cases: Vec<Case>,
     /// What each method of [`registry::ALL`] said, case by case.
     pub replies: Vec<Vec<Reply>>,
-    /// The floating-point methods at their best tolerances.
-    pub tuned: Vec<Tuned>,
 }
 
 impl Survey {
@@ -89,11 +86,7 @@ impl Survey {
             replies.push(registry::ALL.iter().zip(answers).map(reply).collect());
         }
         progress(cases.len(), cases.len());
-        Survey {
-            tuned: tuned(&cases),
-            cases,
-            replies,
-        }
+        Survey { cases, replies }
     }
 
     /// The replies of the `m`th method with their cases.

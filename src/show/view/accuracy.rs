@@ -1,14 +1,14 @@
 //! How right and how fast methods and ways of searching are, for people and as data.
 
 use crate::accuracy::AnswerVerdict;
-use crate::accuracy::pictures::{repeated, tolerances, tuned_name};
+use crate::accuracy::pictures::repeated;
 use crate::accuracy::searching::pictures::{USE_WHEN, ranking, wrong};
 use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
 use crate::accuracy::stability::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
 use crate::format::{duration, grouped, signed};
-use crate::rank::method::registry;
+use crate::rank::method::{MobilityMethod, registry};
 use crate::view::terminal::layout::{fit, table};
 use serde::Serialize;
 use std::cmp::Reverse;
@@ -214,53 +214,33 @@ pub fn summary(
         "\n\n{}\n",
         table(&heads, method_rows(survey, generated), width)
     );
-    let _ = write!(
-        out,
-        "\n{} {}. On {machine}.\n",
-        tolerances(survey),
-        repeated(survey)
-    );
+    let _ = write!(out, "\n{}. On {machine}.\n", repeated(survey));
     for study in studies {
         let _ = write!(out, "\n{}: {}\n", study.title, study.conclusion());
     }
     fit(&out, width)
 }
 
-/// Each method as it is, and with its best tolerance where it has one.
+/// Returns a row for each method.
 fn method_rows(survey: &Survey, generated: &Survey) -> Vec<Vec<String>> {
     let cases = survey.cases.len();
     let count = |n: usize| if n == 0 { String::new() } else { n.to_string() };
-    let mut rows = Vec::new();
-    for (m, method) in registry::ALL.iter().enumerate() {
+    let row = |(m, method): (usize, &&dyn MobilityMethod)| {
         let s = survey.standing(m);
-        let row = |name: String, right: usize, pose: usize, made: String, why: String| {
-            let [from, to] = s.middle_half.map(duration);
-            vec![
-                name,
-                right.to_string(),
-                count(pose),
-                count(s.applies - right - pose),
-                count(cases - s.applies),
-                made,
-                duration(s.seconds),
-                format!("{from} to {to}"),
-                why,
-            ]
-        };
-        rows.push(row(
+        let [from, to] = s.middle_half.map(duration);
+        vec![
             method.name().to_owned(),
-            s.right,
-            s.pose,
+            s.right.to_string(),
+            count(s.pose),
+            count(s.wrong()),
+            count(cases - s.applies),
             generated.standing(m).right.to_string(),
+            duration(s.seconds),
+            format!("{from} to {to}"),
             failures(survey, m),
-        ));
-        let tuned = survey.tuned.iter().find(|t| t.method == m);
-        if let Some((t, name)) = tuned.and_then(|t| Some((t, tuned_name(t)?))) {
-            let why = "its best tolerance".to_owned();
-            rows.push(row(name, t.right, t.pose, String::new(), why));
-        }
-    }
-    rows
+        ]
+    };
+    registry::ALL.iter().enumerate().map(row).collect()
 }
 
 /// The worst failures of a method, and what it needs to be right.

@@ -168,6 +168,41 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
     )
 }
 
+/// Returns the study of the ranks in floating point of the built-in mechanisms against the tolerance, by half decades.
+pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let step = if effort.quick { 4 } else { 1 };
+    let halves = (-30..=-6).step_by(step);
+    let study = Study {
+        name: "stability-tolerance",
+        title: "Tolerance of floating point",
+        axis: "tolerance, relative to the largest pivot or singular value",
+        column: "tolerance",
+        values: halves
+            .map(|half| 10f64.powf(f64::from(half) / 2.0))
+            .collect(),
+        view: View::Best,
+        advice: "Leave --tolerance at its default in double precision; single precision wants a finer one than its default.",
+        rows: Vec::new(),
+    };
+    let tolerances = study.values.clone();
+    let names = Elimination::ALL.map(|method| method.name());
+    study.asked(names, cases.len(), progress, |v, n| {
+        let Case {
+            mechanism,
+            state,
+            truth,
+        } = &cases[n];
+        let closure = Closure::new(&Reals, mechanism, *state).ok();
+        let ask = |method: &Elimination| {
+            let found = closure.as_ref()?;
+            let w = method.mobilities(found, &tolerances[v..=v])[0];
+            let said = Said::judge(w.is_some(), false, w == Some(truth.instantaneous));
+            Some(Reply::new(said, String::new))
+        };
+        Elimination::ALL.iter().map(ask).collect()
+    })
+}
+
 /// Tolerances of the singular values that are compared with the automatic choice.
 const TOLERANCES: [f64; 2] = [1e-9, 1e-6];
 

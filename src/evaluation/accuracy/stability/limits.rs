@@ -57,8 +57,7 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
             if time.median > patience {
                 slow.insert((method.name(), case));
             }
-            let seconds = time.median;
-            reply.map(|reply| Reply { seconds, ..reply })
+            reply.map(|reply| reply.taking(time.median))
         };
         registry::ALL.iter().map(ask).collect()
     })
@@ -172,10 +171,9 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
                     let closure = Closure::new(&exact, m, state).ok()?;
                     Some(closure.columns.len() - modular::rank(&exact, &closure))
                 });
-                let (free, seconds) = (free?, time.median);
-                let said = Said::judge(true, true, i64::try_from(free) == Ok(w));
+                let said = Said::judge(true, true, i64::try_from(free?) == Ok(w));
                 let reply = Reply::new(said, || format!("{} modulo {prime}", m.name));
-                Some(Reply { seconds, ..reply })
+                Some(reply.taking(time.median))
             };
             let mut drawn = chain.clone();
             for joint in &mut drawn.joints {

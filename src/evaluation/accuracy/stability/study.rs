@@ -30,6 +30,8 @@ pub enum View {
     Regions,
     /// The shares of answers that are right, and of those that are wrong and sure.
     Shares,
+    /// The share of answers that are right, and where it is largest.
+    Best,
     /// The time of each row, asked one after another.
     Times,
     /// The share of wrong answers of each row by decades, with the bound of Schwartz and Zippel, which is this degree over the prime.
@@ -126,6 +128,10 @@ impl Study {
                 let about = "Solid: right. Dashed, if there are any: wrong and sure. The rest is undecided, or wrong but reported as \
                              not exact.";
                 self.chart(about.to_owned(), "share of answers, %", Scale::Linear, series)
+            }
+            View::Best => {
+                let series = self.lines("", Style::Line, share(Said::Right));
+                self.chart(String::new(), "right answers, %", Scale::Linear, series)
             }
             View::Times => {
                 let series = self.lines("", Style::Line, |t| quantile(&t.seconds, 0.5));

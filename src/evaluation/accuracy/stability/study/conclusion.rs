@@ -3,7 +3,6 @@
 use super::{Study, View, bound};
 use crate::accuracy::said::{Said, Tally};
 use crate::accuracy::timing::quantile;
-use crate::accuracy::tuned::longest_run;
 use crate::format::{duration, grouped, list, scientific};
 
 impl Study {
@@ -11,7 +10,7 @@ impl Study {
     #[must_use]
     pub fn conclusion(&self) -> String {
         match self.view {
-            View::Regions => self.stretches(),
+            View::Regions | View::Best => self.stretches(),
             View::Shares => self.shares(),
             View::Times => format!("{} {}", self.stretches(), self.times()),
             View::Errors(degree) => self.errors(degree),
@@ -139,6 +138,22 @@ impl Study {
             _ => scientific(x),
         }
     }
+}
+
+/// Returns the first and the last number of the longest run of good numbers below `count`. Of equally long runs it is the first one.
+fn longest_run(count: usize, good: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
+    let (mut best, mut begun) = (None::<(usize, usize)>, None);
+    for n in 0..count {
+        if !good(n) {
+            begun = None;
+            continue;
+        }
+        let from = *begun.get_or_insert(n);
+        if best.is_none_or(|(first, last)| n - from > last - first) {
+            best = Some((from, n));
+        }
+    }
+    best
 }
 
 #[cfg(test)]

@@ -1,0 +1,215 @@
+//! What a smaller model of a scene is worth, and whether the first idea stays first when costs and proportions move.
+
+use super::study::{Effort, Progress, Study, View};
+use crate::accuracy::cases::Case;
+use crate::accuracy::change::{Noise, stretched};
+use crate::accuracy::lattice::{Scene, ladder};
+use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::timing::Stopwatch;
+use crate::closure::Closure;
+use crate::model::mechanism::{Mechanism, StateId};
+use crate::rank::exact::field::field_of;
+use crate::rank::exact::modular;
+use crate::rank::reduce::sufficient_rows::LeastRows;
+use crate::score::outcome::Outcome;
+use crate::score::outcome::variant::Change;
+use crate::score::request::{Check, List, Request};
+use crate::score::run::{answer, run};
+use crate::search::question::conditions::Conditions;
+use crate::search::question::cost::CostTable;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Contours of the random scenes.
+const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
+/// Contours up to which a plane is searched.
+const SEARCHED: usize = 4;
+
+/// Returns the study of the least model of a scene (the rows of the closure equations that matter) against all rows in space: the rank,
+/// and the counts of a search. The answer of all rows is the truth.
+pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let each = if effort.quick { 4 } else { 32 };
+    let study = Study {
+        name: "stability-model",
+        title: "Least model of a scene",
+        axis: "independent contours",
+        column: "contours",
+        values: CONTOURS.map(|k| k as f64).to_vec(),
+        view: View::Times,
+        advice: "Nothing: a search takes the least rows by itself, where they pay. For a single rank all rows are faster than finding \
+                 the least. A planar mode that does not apply is refused, with the joint named.",
+        rows: Vec::new(),
+    };
+    let scenes = Scene::ALL.map(Scene::name);
+    let rows = scenes
+        .into_iter()
+        .chain(["built-in mechanisms", "search in a plane"]);
+    let rows = rows.flat_map(|of| [format!("{of}, all rows"), format!("{of}, least rows")]);
+    let watch = Stopwatch {
+        clock: effort.clock,
+        repeat: 3,
+    };
+    study.asked(
+        rows,
+        Scene::ALL.len() * each + cases.len(),
+        progress,
+        |v, n| {
+            let mut replies = vec![None; 2 * Scene::ALL.len() + 4];
+            let mut put = |row: usize, pair: Option<[Reply; 2]>| {
+                let pair = pair.into_iter().flatten();
+                replies
+                    .iter_mut()
+                    .skip(2 * row)
+                    .zip(pair)
+                    .for_each(|(at, reply)| *at = Some(reply));
+            };
+            let scene = Scene::ALL.get(n / each);
+            let Some(&scene) = scene else {
+                let case = &cases[n - Scene::ALL.len() * each];
+                let contours = case.mechanism.joints_in(case.state).count() + 1;
+                let contours = contours.saturating_sub(case.mechanism.links.len());
+                let fits = CONTOURS.partition_point(|&k| k <= contours) == v + 1;
+                put(
+                    Scene::ALL.len(),
+                    fits.then(|| of_rank(&case.mechanism, case.state, watch))
+                        .flatten(),
+                );
+                return replies;
+            };
+            let m = ladder(scene, CONTOURS[v], &mut Noise::new(effort.seed, n));
+            put(n / each, of_rank(&m, StateId::FREE, watch));
+            if scene == Scene::Plane && n < 2 && CONTOURS[v] <= SEARCHED {
+                put(Scene::ALL.len() + 1, of_search(&m, watch));
+            }
+            replies
+        },
+    )
+}
+
+/// Returns the rank by all rows and by the least rows, which are to be found first.
+fn of_rank(m: &Mechanism, state: StateId, watch: Stopwatch) -> Option<[Reply; 2]> {
+    let exact = field_of(m, state, 0).ok()?;
+    let closure = Closure::new(&exact, m, state).ok()?;
+    let (truth, all) = watch.time(|| modular::rank(&exact, &closure));
+    let (least, found) = watch.time(|| LeastRows::new(&exact, m, &closure));
+    let least = least.ok()?;
+    let said = Said::judge(true, true, least.rank() == truth);
+    Some([
+        Reply::new(Said::Right, String::new).taking(all.median),
+        Reply::new(said, || m.name.clone()).taking(found.median),
+    ])
+}
+
+/// Returns the counts of a search with all rows and with the least rows.
+fn of_search(m: &Mechanism, watch: Stopwatch) -> Option<[Reply; 2]> {
+    let request = Request {
+        list: List::Nothing,
+        check: Check::None,
+        ..Request::default()
+    };
+    let search = |whole_twists: bool| {
+        let ready = request.prepare(m.clone(), &mut |_| {}).ok()?;
+        let (conditions, measured) = request.conditions(&ready, &mut |_| {}).ok()?;
+        let conditions = Conditions {
+            whole_twists,
+            ..conditions
+        };
+        let m = Arc::new(ready.mechanism);
+        answer(m, conditions, measured, &request, &|| false, &mut |_| {}).ok()
+    };
+    let [(truth, all), (least, found)] = [true, false].map(|whole| watch.time(|| search(whole)));
+    let counts = |o: Outcome| (o.determinate, o.admissible, o.lasting);
+    let said = Said::judge(true, true, truth.map(counts)? == least.map(counts)?);
+    Some([
+        Reply::new(Said::Right, String::new).taking(all.median),
+        Reply::new(said, || m.name.clone()).taking(found.median),
+    ])
+}
+
+/// Returns the study of the first idea. A change of x multiplies the cost of each joint type, or each coordinate of all points, by a factor
+/// of its own between 1 - x and 1 + x.
+pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
+    let (each, values): (usize, &[f64]) = if effort.quick {
+        (1, &[0.01, 0.05])
+    } else {
+        (5, &[0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2])
+    };
+    let request = Request {
+        check: Check::None,
+        nodes: 20_000,
+        pool: Some(2_000),
+        ..Request::default()
+    };
+    let first = |m: &Mechanism, n: usize| {
+        let request = Request {
+            list: List::Top(n),
+            ..request.clone()
+        };
+        let found = run(m.clone(), &request, &|| false, &mut |_| {}).ok()?;
+        let ideas: Vec<Vec<Change>> = found.variants().map(|v| v.changes()).collect();
+        (!ideas.is_empty()).then_some(ideas)
+    };
+    let free = cases
+        .iter()
+        .filter(|c| c.state == StateId::FREE)
+        .map(|c| &c.mechanism);
+    let offers = free.filter(|m| m.joints.iter().any(|j| !j.options.is_empty()));
+    let ideas = offers.filter_map(|m| Some((m, first(m, 10)?)));
+    let ideas: Vec<_> = ideas.collect();
+    let study = Study {
+        name: "stability-first-idea",
+        title: "Does the first idea stay first",
+        axis: "largest change of costs, or of lengths along an axis",
+        column: "change",
+        values: values.to_vec(),
+        view: View::Best,
+        advice: "Look at the ideas of nearly the same cost too: where the first does not stay first, they are as good.",
+        rows: Vec::new(),
+    };
+    let names = [
+        "first among costs",
+        "among the first ten",
+        "first in a ranking under loads",
+    ];
+    study.asked(names, ideas.len() * each, progress, |v, n| {
+        let (m, before) = &ideas[n / each];
+        let noise = &mut Noise::new(effort.seed, n);
+        let priced = repriced(m, values[v], noise);
+        let reply = |right: bool| Reply::new(Said::judge(true, false, right), String::new);
+        let now = |m: &Mechanism| Some(first(m, 1)?.swap_remove(0));
+        let priced = now(&priced);
+        let cheapest = m.ranking.is_none();
+        let stays = priced.as_ref().filter(|_| cheapest);
+        let loaded = if cheapest {
+            None
+        } else {
+            now(&stretched(m, values[v], noise))
+        };
+        vec![
+            stays.map(|now| reply(*now == before[0])),
+            stays.map(|now| reply(before.contains(now))),
+            loaded.map(|now| reply(now == before[0])),
+        ]
+    })
+}
+
+/// Returns a copy in which each type of joint costs up to a share more or less.
+fn repriced(m: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
+    let costs = CostTable::new(&m.search.costs);
+    let mut factors: BTreeMap<String, f64> = BTreeMap::new();
+    let mut out = m.clone();
+    for joint in &mut out.joints {
+        for option in joint.options.iter_mut().chain(&mut joint.unloading) {
+            let factor = factors.entry(option.name.clone());
+            let factor = factor.or_insert_with(|| 1.0 + by * noise.uniform());
+            #[allow(
+                clippy::cast_precision_loss,
+                clippy::cast_possible_truncation,
+                reason = "thousandths of a joint"
+            )]
+            let cost = (costs.option(option) as f64 * *factor).round() as i64;
+            option.cost_milli = Some(cost);
+        }
+    }
+    out
+}
