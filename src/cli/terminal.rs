@@ -2,7 +2,6 @@
 
 pub(super) mod charts;
 pub(super) mod colour;
-pub(super) mod did_you_mean;
 pub(super) mod interrupt;
 pub(super) mod machine;
 pub(super) mod memory;

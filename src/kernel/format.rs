@@ -14,6 +14,7 @@
 //! Whole numbers that may be large are [`grouped`], costs are written by [`cost`], times by [`duration`].
 
 pub mod csv;
+pub mod did_you_mean;
 pub mod plain;
 
 use std::ops::Range;

@@ -55,7 +55,7 @@ pub(crate) fn analyze(
         let found = analyse(m, &states, rank).map_err(failed)?;
         let advice = advise(m, &states, &found).map_err(failed)?;
         let told = Analysis::new(m, &found, &advice);
-        Ok((json(&told.json())?, told.text(None), None, None))
+        Ok((json(&told.json())?, told.text(None, false), None, None))
     })
 }
 

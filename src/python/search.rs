@@ -97,7 +97,7 @@ impl Outcome {
         written(py, |out| {
             let remarks = o.remarks(&|| false).map_err(failed)?;
             let name = &o.search.mechanism.name;
-            text::write(out, o, o.variants(), &remarks, name, None).map_err(failed)
+            text::write(out, o, o.variants(), &remarks, name, None, false).map_err(failed)
         })
     }
 

@@ -222,7 +222,7 @@ fn csv_and_text_are_those_of_the_command() {
     outcome.request.distinct = true;
     let variants = outcome.variants();
     let none = &Remarks::default();
-    text::write(&mut text, &outcome, variants, none, "four-bar", None).unwrap();
+    text::write(&mut text, &outcome, variants, none, "four-bar", None, false).unwrap();
     assert_eq!(text, printed("text").unwrap().stdout);
 }
 

@@ -55,6 +55,9 @@ pub(in crate::cli) struct Analyze {
     /// Report the motion of --link relative to this link instead of the frame.
     #[arg(long, value_name = "LINK", requires = "link")]
     relative_to: Option<String>,
+    /// Also print the counts behind W and σ, the method, the self-stresses, and published claims one by one.
+    #[arg(long, short)]
+    pub(in crate::cli) verbose: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(in crate::cli) format: TextOrJson,
@@ -119,7 +122,16 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
         ..Analysis::new(&mechanism, &found, &advice)
     };
     add_motions(&mut analysis, &mechanism, &found, a)?;
-    let next = steps(&mechanism, &analysis.states, &a.file.file);
+    let mut next = steps(&mechanism, &analysis.states, &a.file.file);
+    if !a.verbose {
+        let gives = "where W and σ come from: ranks, proofs and self-stresses";
+        next.push(NextCommand::new(
+            "analyze",
+            &a.file.file,
+            "--verbose",
+            gives,
+        ));
+    }
     write(a, &analysis, &next)
 }
 
@@ -187,7 +199,11 @@ fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::
             TextOrJson::Json => output::json(out, &analysis.json())?,
             TextOrJson::Text => {
                 let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
-                let text = toned(analysis.text(width), a.output.as_deref(), verdicts);
+                let text = toned(
+                    analysis.text(width, a.verbose),
+                    a.output.as_deref(),
+                    verdicts,
+                );
                 write!(out, "{text}")?;
                 if let Some(s) = &analysis.stroke {
                     write!(out, "\n{}", fit(&s.text(width), width))?;

@@ -2,7 +2,8 @@
 
 mod pair;
 
-use crate::cli::terminal::{Done, did_you_mean, output};
+use crate::cli::terminal::{Done, output};
+use crate::format::did_you_mean;
 use crate::model::joint_type::JointType;
 use crate::terms::{GlossaryTerm, Terms};
 use crate::view::terminal::layout::table;
@@ -40,11 +41,14 @@ pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
             Ok(Done::Found)
         });
     }
-    let joint_type = JointType::NAMED
-        .iter()
-        .find(|t| t.name() == pair::word(&word));
-    if let Some(joint_type) = joint_type {
-        return pair::explain(joint_type, a.output.as_deref());
+    if let Some(joint_type) = JointType::from_name(&pair::word(&word)) {
+        return pair::explain(&joint_type, a.output.as_deref());
+    }
+    if word == "types" {
+        return output::to(None, |out| {
+            writeln!(out, "{}", pair::all(output::width(None)))?;
+            Ok(Done::Found)
+        });
     }
     ensure!(
         a.output.is_none(),
@@ -53,7 +57,9 @@ pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
     );
     let Some(term) = terms.find(&word) else {
         // Several words may stand for one term; each is named once.
-        let types: Vec<&str> = JointType::NAMED.iter().map(JointType::name).collect();
+        let types = JointType::NAMED.iter().map(JointType::name);
+        let trade = JointType::TRADE_NAMES.map(|(name, _)| name);
+        let types: Vec<&str> = types.chain(trade).collect();
         let near = did_you_mean::near(&word, terms.words().chain(types));
         let names = near
             .iter()

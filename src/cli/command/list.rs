@@ -1,8 +1,9 @@
 //! `ozols list`.
 
 use crate::builtin;
-use crate::cli::terminal::{Done, did_you_mean, output};
+use crate::cli::terminal::{Done, output};
 use crate::format::csv;
+use crate::format::did_you_mean;
 use crate::view::terminal::layout::{fit, table};
 use clap::{Args as ClapArgs, ValueEnum};
 use serde::{Deserialize, Serialize};

@@ -64,6 +64,9 @@ pub(in crate::cli) struct Search {
     /// Diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     method: SearchMethod,
+    /// Also print the counts by mobility, σ by contour, and what each of the first three ideas does.
+    #[arg(long, short)]
+    verbose: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: SearchFormat,
@@ -127,10 +130,12 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
                 let width = output::width(a.output.as_deref());
                 let file = &a.file.file;
                 if request.list == List::All {
-                    text::write(out, &outcome, variants, remarks, file, width)?;
+                    text::write(out, &outcome, variants, remarks, file, width, a.verbose)?;
                 } else {
                     let mut text = Vec::new();
-                    text::write(&mut text, &outcome, variants, remarks, file, width)?;
+                    text::write(
+                        &mut text, &outcome, variants, remarks, file, width, a.verbose,
+                    )?;
                     let text = a.file.with_loops(String::from_utf8(text)?);
                     write!(
                         out,

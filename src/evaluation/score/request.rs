@@ -231,6 +231,9 @@ impl Request {
         mechanism: Mechanism,
         tell: &mut dyn FnMut(String),
     ) -> Result<Prepared, RequestError> {
+        if let Some(named) = self.in_words_of_types(&mechanism) {
+            return named.prepare(mechanism, tell);
+        }
         let state = self.state(&mechanism)?.map(|s| s.state);
         let states: Vec<StateId> = std::iter::once(StateId::FREE).chain(state).collect();
         let mut settled = settle(&mechanism, &states)?;

@@ -55,7 +55,9 @@ pub(crate) fn costs(
             "link" => spec.link_milli = Some(milli),
             "harmful" => spec.harmful_milli = Some(milli),
             n if JointType::from_name(n).is_some() || offered.contains(n) => {
-                spec.by_type_milli.push((name.clone(), milli));
+                let own = offered.contains(n);
+                let name = if own { n } else { JointType::word(n) };
+                spec.by_type_milli.push((name.to_owned(), milli));
             }
             _ => {
                 let types = JointType::NAMED.iter().map(JointType::name);

@@ -95,7 +95,7 @@ pub(crate) fn guessed(
 fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(String, Guess)> {
     let kind = table.kind.as_deref()?;
     let option = JointType::from_name(kind)?;
-    let name = table.name.as_deref().unwrap_or(kind);
+    let name = table.name.as_deref().unwrap_or(option.name());
     if !joint.options.iter().skip(1).any(|o| o.name == name) {
         return None;
     }

@@ -1,7 +1,8 @@
 //! What can be wrong with a file, in words that name the item and the remedy.
 
 use crate::file::locate::{Document, DocumentStep};
-use crate::format::plural;
+use crate::format::{did_you_mean, plural};
+use crate::model::joint_type::JointType;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
@@ -35,7 +36,7 @@ pub enum ProblemKind {
     UnknownLink { id: String, known: String },
     #[error("unknown joint \"{id}\"; known joints: {known}")]
     UnknownJoint { id: String, known: String },
-    #[error("unknown {what} \"{word}\"; known: {known}")]
+    #[error("unknown {what} \"{word}\"; {}known: {known}", suggestion(word, known))]
     UnknownWord {
         what: &'static str,
         word: String,
@@ -354,3 +355,14 @@ impl fmt::Display for ImportError {
 }
 
 impl std::error::Error for ImportError {}
+
+/// Returns "did you mean this? " for a word that is near to a known one, out of a list with commas; empty if none is near.
+pub(crate) fn suggestion(word: &str, known: &str) -> String {
+    let trade = JointType::TRADE_NAMES.map(|(name, _)| name);
+    let types = known.contains(JointType::Revolute.name());
+    let known = known.split(", ").chain(trade.into_iter().filter(|_| types));
+    match did_you_mean::near(word, known).first() {
+        Some(near) => format!("did you mean {near}? "),
+        None => String::new(),
+    }
+}

@@ -108,7 +108,7 @@ pub struct JointEntry {
     pub links: [String; 2],
     /// Its type, of those that [`JointType`] has.
     #[schemars(description = format!("Type: {}.", disjunction(JointType::words())))]
-    #[schemars(extend("enum" = JointType::words().collect::<Vec<_>>()))]
+    #[schemars(extend("enum" = joint_words()))]
     #[serde(rename = "type")]
     pub kind: String,
     /// Freedoms of a custom joint: rx, ry, rz, tx, ty, tz, screw.
@@ -377,4 +377,10 @@ fn default_to_null(schema: &mut Value) {
         own.insert("default".to_owned(), Value::Null);
     }
     own.values_mut().for_each(default_to_null);
+}
+
+/// Returns the words and trade names of all joint types.
+fn joint_words() -> Vec<&'static str> {
+    let trade = JointType::TRADE_NAMES.map(|(name, _)| name);
+    JointType::words().chain(trade).collect()
 }

@@ -3,7 +3,7 @@
 
 use crate::file::lengths::wrong_lengths;
 use crate::file::locate::last_key;
-use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::problem::{ImportError, ProblemKind, suggestion};
 use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::file::{Finding, Findings, Place, digits};
@@ -129,6 +129,18 @@ fn with_remedy(message: String) -> String {
     }
     if message == "floating-point number overflowed" {
         return format!("{message}; choose another length_unit");
+    }
+    if let Some(rest) = message.strip_prefix("unknown field `")
+        && let Some((word, known)) = rest.split_once("`, expected ")
+    {
+        let known = known
+            .trim_start_matches("one of ")
+            .replace('`', "")
+            .replace(" or ", ", ");
+        return format!(
+            "unknown key \"{word}\"; {}known: {known}",
+            suggestion(word, &known)
+        );
     }
     let missing = message.strip_prefix("missing field `");
     match missing.and_then(|rest| rest.strip_suffix('`')) {

@@ -182,9 +182,58 @@ impl JointType {
         self.known().2
     }
 
-    /// The named type a word stands for, if any (`custom` needs its freedoms and is not found here).
+    /// Names of the trade, each with the word of the one type that it means.
+    pub const TRADE_NAMES: [(&str, &str); 21] = [
+        ("hinge", "revolute"),
+        ("pin", "revolute"),
+        ("slider", "prismatic"),
+        ("slide", "prismatic"),
+        ("rail", "prismatic"),
+        ("screw", "helical"),
+        ("lead-screw", "helical"),
+        ("bush", "cylindrical"),
+        ("sliding-pin", "cylindrical"),
+        ("cardan", "universal"),
+        ("hooke", "universal"),
+        ("gimbal", "universal"),
+        ("ball", "spherical"),
+        ("rod-end", "spherical"),
+        ("pin-in-slot", "slotted"),
+        ("flat", "planar"),
+        ("ball-in-tube", "sphere-in-cylinder"),
+        ("roller-on-plane", "cylinder-on-plane"),
+        ("ball-on-plane", "sphere-on-plane"),
+        ("weld", "fixed"),
+        ("rigid", "fixed"),
+    ];
+
+    /// Returns the names of the trade that mean this type.
+    pub fn trade_names(&self) -> impl Iterator<Item = &'static str> {
+        let own = self.name();
+        let all = JointType::TRADE_NAMES.into_iter();
+        all.filter(move |(_, word)| *word == own)
+            .map(|(name, _)| name)
+    }
+
+    /// Returns the word of the type that a trade name means; any other name unchanged.
     #[must_use]
-    pub fn from_name(word: &str) -> Option<JointType> {
+    pub fn word(name: &str) -> &str {
+        let meant = JointType::TRADE_NAMES
+            .iter()
+            .find(|(trade, _)| *trade == name);
+        meant.map_or(name, |(_, word)| word)
+    }
+
+    /// Returns the named type with this word or trade name, if any (`custom` needs its freedoms and is not found here).
+    ///
+    /// # Examples
+    /// ```
+    /// use ozols::model::joint_type::JointType;
+    /// assert_eq!(JointType::from_name("ball"), Some(JointType::Spherical));
+    /// ```
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<JointType> {
+        let word = JointType::word(name);
         JointType::NAMED.iter().find(|t| t.name() == word).cloned()
     }
 

@@ -18,21 +18,22 @@ a{color:var(--link)}
 nav ul{margin:0;padding:0;list-style:none;columns:18rem;column-gap:2rem}
 section{margin-top:2rem;padding-top:1.5rem;border-top:1px solid var(--rule);scroll-margin-top:1rem}
 .wide{overflow-x:auto;margin:0 -1.25rem}
+.wide p{margin:0 1.25rem 1rem}
 .wide svg{display:block;height:auto;max-width:max(100%,36rem)}
 @media print{
 @page{margin:15mm}
 body{padding:0;max-width:none;font-size:10pt}
 nav{display:none}
-p{break-after:avoid}
+.wide{break-after:avoid}
 .wide{overflow:visible;margin:0 -5mm}
 .wide svg{max-width:100%}
 }
 ";
 
-/// One self-contained HTML page: under the title, each part with its heading, a sentence and an SVG, which stands as it is
-/// given. Pictures show their headings themselves, so those of the parts are for screen readers and the table of contents.
+/// Returns one self-contained HTML page: under the title, each part with its heading, an SVG, which is written as it is given, and a
+/// sentence. Pictures show their headings themselves, so those of the parts are for screen readers and the table of contents.
 ///
-/// It follows the reader's light or dark setting, prints on white, and on a narrow screen each picture scrolls by itself.
+/// The page follows the reader's light or dark setting, prints on white, and on a narrow screen each picture scrolls by itself.
 /// From four parts on there is a table of contents.
 pub fn page(title: &str, parts: &[(String, String, String)]) -> String {
     let page = html! {
@@ -59,11 +60,11 @@ pub fn page(title: &str, parts: &[(String, String, String)]) -> String {
                     @for (n, (heading, sentence, svg)) in parts.iter().enumerate() {
                         section id={ "part-" (n + 1) } {
                             h2 { (heading) }
-                            @if !sentence.is_empty() { p { (sentence) } }
                             // Reached by keyboard, since it scrolls.
                             @if !svg.is_empty() {
                                 div.wide tabindex="0" role="group" aria-label=(heading) { (PreEscaped(svg)) }
                             }
+                            @if !sentence.is_empty() { p { (sentence) } }
                         }
                     }
                 }

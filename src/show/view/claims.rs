@@ -23,9 +23,9 @@ fn verdict(claim: &Claim) -> &'static str {
     }
 }
 
-/// A table of them under a line that counts them; empty where there are none.
+/// Returns a line that counts the claims, with a table of them if `verbose`; empty if there are none.
 #[must_use]
-pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
+pub(crate) fn text(claims: &[&Claim], width: Option<u16>, verbose: bool) -> String {
     if claims.is_empty() {
         return String::new();
     }
@@ -34,6 +34,15 @@ pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
         0 => String::new(),
         n => format!(", {n} refuted if the scan of the text is right"),
     };
+    let counted = format!(
+        "\n  Published about this mechanism: {}, {} confirmed, {} refuted{scanned}\n",
+        plural(claims.len(), "claim"),
+        count(CONFIRMED),
+        count(REFUTED),
+    );
+    if !verbose {
+        return counted;
+    }
     let rows = claims.iter().map(|c| {
         let mut why = match &c.right {
             Some(right) => format!("right: {right}; {}", c.evidence),
@@ -44,11 +53,6 @@ pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
         }
         vec![c.source.clone(), c.says.clone(), verdict(c).to_owned(), why]
     });
-    format!(
-        "\n  What is published of this mechanism: {}, {} confirmed, {} refuted{scanned}\n\n{}\n",
-        plural(claims.len(), "claim"),
-        count(CONFIRMED),
-        count(REFUTED),
-        table(&["where", "claim", "so", "evidence"], rows.collect(), width)
-    )
+    let head = ["where", "claim", "so", "evidence"];
+    format!("{counted}\n{}\n", table(&head, rows.collect(), width))
 }

@@ -343,9 +343,9 @@ fn unloading_joints_are_on_the_menu() {
     assert_eq!(free["links"], 5);
 }
 
-/// The guide's specification is what it says: mirror images of up to eight links, and seven that move as grippers.
+/// The specification that comes with the program has what it says: mirror images of up to eight links, and seven that move as grippers.
 #[test]
-fn the_specification_of_the_guide_is_built() {
+fn the_specification_of_mirror_images_is_built() {
     let folder = tempdir().unwrap();
     let db = at(&folder, "mirror.db");
     let spec = concat!(

@@ -285,9 +285,9 @@ fn analyses_fit_the_terminal() {
             })
             .collect();
         let analysis = Analysis::new(&m, &found, &advice);
-        let whole = analysis.text(None);
+        let whole = analysis.text(None, true);
         for width in [60, 80, 100] {
-            let text = analysis.text(Some(width));
+            let text = analysis.text(Some(width), true);
             for line in text.lines() {
                 let long = console::measure_text_width(line);
                 assert!(long <= usize::from(width), "{name} at {width}: {line:?}");

@@ -23,16 +23,17 @@ pub(super) fn all(width: Option<u16>) -> String {
     let words = PairWords::builtin();
     let rows = JointType::NAMED.iter().map(|t| {
         let freedoms = t.freedoms().iter().map(|f| f.name()).join(" ");
-        let about = words.get(t.name()).map_or("", |w| w.about.as_str());
+        let made_as = words.get(t.name()).and_then(|w| w.hardware.first());
         vec![
             t.name().to_owned(),
+            t.trade_names().join(", "),
             t.class().to_owned(),
             freedoms,
             cost(t.default_cost_milli()),
-            about.to_owned(),
+            made_as.cloned().unwrap_or_default(),
         ]
     });
-    let head = ["joint type", "class", "freedoms", "cost", "what it is"];
+    let head = ["joint type", "also", "class", "freedoms", "cost", "made as"];
     table(&head, rows.collect(), width)
 }
 
@@ -86,7 +87,7 @@ fn draw_to(of: &JointType, path: &Path) -> anyhow::Result<()> {
 }
 
 /// Freedoms, class, axes, cost and hardware, a paragraph each.
-fn figures(of: &JointType, w: &PairWords, width: usize) -> [String; 6] {
+fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
     let row = |head: &str, text: &str| {
         let options = textwrap::Options::new(width)
             .initial_indent("  ")
@@ -106,14 +107,17 @@ fn figures(of: &JointType, w: &PairWords, width: usize) -> [String; 6] {
         "{} by default, in revolute joints; [search.costs] of a file or --costs states others (`ozols show costs`)",
         cost(of.default_cost_milli())
     );
-    [
+    let also = of.trade_names().join(", ");
+    let also = (!also.is_empty()).then(|| row("also", &also));
+    let figures = [
         row("freedoms", &freedoms),
         row("class", &class),
         row("axis z", &w.axis),
         row("reference x", &w.reference),
         row("cost", &cost),
         row("made as", &w.hardware.join("; ")),
-    ]
+    ];
+    also.into_iter().chain(figures).collect()
 }
 
 /// A joint of the type as it stands in a file.

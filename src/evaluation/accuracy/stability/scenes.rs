@@ -5,13 +5,13 @@ use crate::accuracy::cases::Case;
 use crate::accuracy::change::{Noise, stretched};
 use crate::accuracy::lattice::{Scene, ladder};
 use crate::accuracy::said::{Reply, Said};
-use crate::accuracy::timing::Stopwatch;
+use crate::accuracy::timing::{Stopwatch, Timing};
 use crate::closure::Closure;
+use crate::closure::contour::contour_basis;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::reduce::sufficient_rows::LeastRows;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::Change;
 use crate::score::request::{Check, List, Request};
 use crate::score::run::{answer, run};
@@ -26,7 +26,7 @@ const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
 const SEARCHED: usize = 4;
 
 /// Returns the study of the least model of a scene (the rows of the closure equations that matter) against all rows in space: the rank,
-/// and the counts of a search. The answer of all rows is the truth.
+/// and the counts of a search, with their time as a multiple of the time by all rows. The answer by all rows is the truth.
 pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let each = if effort.quick { 4 } else { 32 };
     let study = Study {
@@ -35,16 +35,13 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         axis: "independent contours",
         column: "contours",
         values: CONTOURS.map(|k| k as f64).to_vec(),
-        view: View::Times,
+        view: View::Ratios,
         advice: "Nothing: a search takes the least rows by itself, where they pay. For a single rank all rows are faster than finding \
                  the least. A planar mode that does not apply is refused, with the joint named.",
         rows: Vec::new(),
     };
-    let scenes = Scene::ALL.map(Scene::name);
-    let rows = scenes
-        .into_iter()
-        .chain(["built-in mechanisms", "search in a plane"]);
-    let rows = rows.flat_map(|of| [format!("{of}, all rows"), format!("{of}, least rows")]);
+    let rows = Scene::ALL.map(Scene::name).into_iter();
+    let rows = rows.chain(["built-in mechanisms", "search in a plane"]);
     let watch = Stopwatch {
         clock: effort.clock,
         repeat: 3,
@@ -54,54 +51,38 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         Scene::ALL.len() * each + cases.len(),
         progress,
         |v, n| {
-            let mut replies = vec![None; 2 * Scene::ALL.len() + 4];
-            let mut put = |row: usize, pair: Option<[Reply; 2]>| {
-                let pair = pair.into_iter().flatten();
-                replies
-                    .iter_mut()
-                    .skip(2 * row)
-                    .zip(pair)
-                    .for_each(|(at, reply)| *at = Some(reply));
-            };
-            let scene = Scene::ALL.get(n / each);
-            let Some(&scene) = scene else {
-                let case = &cases[n - Scene::ALL.len() * each];
-                let contours = case.mechanism.joints_in(case.state).count() + 1;
-                let contours = contours.saturating_sub(case.mechanism.links.len());
-                let fits = CONTOURS.partition_point(|&k| k <= contours) == v + 1;
-                put(
-                    Scene::ALL.len(),
-                    fits.then(|| of_rank(&case.mechanism, case.state, watch))
-                        .flatten(),
-                );
+            let mut replies = vec![None; Scene::ALL.len() + 2];
+            let Some(&scene) = Scene::ALL.get(n / each) else {
+                let Case {
+                    mechanism, state, ..
+                } = &cases[n - Scene::ALL.len() * each];
+                let contours = contour_basis(mechanism, *state).len();
+                if CONTOURS.partition_point(|&k| k <= contours) == v + 1 {
+                    replies[Scene::ALL.len()] = by_rank(mechanism, *state, watch);
+                }
                 return replies;
             };
             let m = ladder(scene, CONTOURS[v], &mut Noise::new(effort.seed, n));
-            put(n / each, of_rank(&m, StateId::FREE, watch));
+            replies[n / each] = by_rank(&m, StateId::FREE, watch);
             if scene == Scene::Plane && n < 2 && CONTOURS[v] <= SEARCHED {
-                put(Scene::ALL.len() + 1, of_search(&m, watch));
+                replies[Scene::ALL.len() + 1] = by_search(&m, watch);
             }
             replies
         },
     )
 }
 
-/// Returns the rank by all rows and by the least rows, which are to be found first.
-fn of_rank(m: &Mechanism, state: StateId, watch: Stopwatch) -> Option<[Reply; 2]> {
+/// Judges the rank by the least rows, which have to be found first.
+fn by_rank(m: &Mechanism, state: StateId, watch: Stopwatch) -> Option<Reply> {
     let exact = field_of(m, state, 0).ok()?;
     let closure = Closure::new(&exact, m, state).ok()?;
-    let (truth, all) = watch.time(|| modular::rank(&exact, &closure));
-    let (least, found) = watch.time(|| LeastRows::new(&exact, m, &closure));
-    let least = least.ok()?;
-    let said = Said::judge(true, true, least.rank() == truth);
-    Some([
-        Reply::new(Said::Right, String::new).taking(all.median),
-        Reply::new(said, || m.name.clone()).taking(found.median),
-    ])
+    let all = watch.time(|| modular::rank(&exact, &closure));
+    let (least, time) = watch.time(|| LeastRows::new(&exact, m, &closure));
+    Some(compared(m, all, (least.ok()?.rank(), time)))
 }
 
-/// Returns the counts of a search with all rows and with the least rows.
-fn of_search(m: &Mechanism, watch: Stopwatch) -> Option<[Reply; 2]> {
+/// Judges the counts of a search by the least rows.
+fn by_search(m: &Mechanism, watch: Stopwatch) -> Option<Reply> {
     let request = Request {
         list: List::Nothing,
         check: Check::None,
@@ -115,15 +96,19 @@ fn of_search(m: &Mechanism, watch: Stopwatch) -> Option<[Reply; 2]> {
             ..conditions
         };
         let m = Arc::new(ready.mechanism);
-        answer(m, conditions, measured, &request, &|| false, &mut |_| {}).ok()
+        let found = answer(m, conditions, measured, &request, &|| false, &mut |_| {}).ok()?;
+        Some((found.determinate, found.admissible, found.lasting))
     };
-    let [(truth, all), (least, found)] = [true, false].map(|whole| watch.time(|| search(whole)));
-    let counts = |o: Outcome| (o.determinate, o.admissible, o.lasting);
-    let said = Said::judge(true, true, truth.map(counts)? == least.map(counts)?);
-    Some([
-        Reply::new(Said::Right, String::new).taking(all.median),
-        Reply::new(said, || m.name.clone()).taking(found.median),
-    ])
+    let [all, least] = [true, false].map(|whole| watch.time(|| search(whole)));
+    Some(compared(m, (all.0?, all.1), (least.0?, least.1)))
+}
+
+/// Returns whether two answers are the same, with the time of the second as a multiple of the time of the first.
+fn compared<T: PartialEq>(m: &Mechanism, all: (T, Timing), least: (T, Timing)) -> Reply {
+    let said = Said::judge(true, true, all.0 == least.0);
+    // By a clock that stands still both take as long.
+    let times = (all.1.median > 0.0).then(|| least.1.median / all.1.median);
+    Reply::new(said, || m.name.clone()).taking(times.unwrap_or(1.0))
 }
 
 /// Returns the study of the first idea. A change of x multiplies the cost of each joint type, or each coordinate of all points, by a factor

@@ -34,6 +34,8 @@ pub enum View {
     Best,
     /// The time of each row, asked one after another.
     Times,
+    /// The time of each row as a multiple of another, asked one after another.
+    Ratios,
     /// The share of wrong answers of each row by decades, with the bound of Schwartz and Zippel, which is this degree over the prime.
     /// The answers are timed.
     Errors(u32),
@@ -93,7 +95,7 @@ impl Study {
     }
 
     fn is_timed(&self) -> bool {
-        matches!(self.view, View::Times | View::Errors(_))
+        matches!(self.view, View::Times | View::Ratios | View::Errors(_))
     }
 
     /// Returns the table, with a line for each row and each value that has replies.
@@ -133,19 +135,23 @@ impl Study {
                 let series = self.lines("", Style::Line, share(Said::Right));
                 self.chart(String::new(), "right answers, %", Scale::Linear, series)
             }
-            View::Times => {
+            View::Times | View::Ratios => {
                 let series = self.lines("", Style::Line, |t| quantile(&t.seconds, 0.5));
-                let about = "Median over the cases that a method applies to.".to_owned();
-                self.chart(about, "time of an answer, s", Scale::Log, series)
+                let up = match self.view {
+                    View::Times => "time of an answer, s",
+                    _ => "times as long",
+                };
+                let about = "Median over the cases that a row applies to.".to_owned();
+                self.chart(about, up, Scale::Log, series)
             }
             View::Errors(degree) => {
                 let mut series = self.lines("", Style::Line, share(Said::Wrong));
                 series.push(Series {
-                    name: "bound of Schwartz and Zippel, random points".to_owned(),
+                    name: "bound for random points".to_owned(),
                     points: self.values.iter().map(|b| (*b, bound(degree, *b))).collect(),
                     style: Style::Dashed,
                 });
-                let about = format!("Wrong ranks. The bound is {degree} over the least prime of each size.");
+                let about = format!("Wrong ranks. Bound of Schwartz and Zippel: {degree} over the least prime of each size.");
                 self.chart(about, "wrong ranks, %", Scale::LogAndZero(-3), series)
             }
         }

@@ -19,6 +19,27 @@ pub(in crate::score) fn types() -> impl Iterator<Item = &'static JointType> {
 const ANY: &str = "any";
 
 impl Request {
+    /// Returns the request with the words of joint types in place of trade names that no joint has an option of; `None` if it has none.
+    pub(in crate::score) fn in_words_of_types(&self, mechanism: &Mechanism) -> Option<Request> {
+        let offered = |name: &String| {
+            let mut all = mechanism.joints.iter().flat_map(Joint::offered);
+            all.any(|o| o.name == *name)
+        };
+        let mut named = self.clone();
+        let mut found = false;
+        let rules = named.allow.iter_mut().chain(&mut named.forbid);
+        let inserts = named.unloading.iter_mut().map(|i| &mut i.names);
+        let lists = rules.map(|rule| &mut rule.names).chain(inserts);
+        for name in lists.chain([&mut named.options]).flatten() {
+            let word = JointType::word(name);
+            if word != name && !offered(name) {
+                *name = word.to_owned();
+                found = true;
+            }
+        }
+        found.then_some(named)
+    }
+
     /// Returns whether every set of freedoms is asked for.
     pub(in crate::score) fn wants_any(&self) -> bool {
         self.options.iter().any(|name| name == ANY)

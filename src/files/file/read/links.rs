@@ -14,9 +14,9 @@ pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
         at.check_id("link", &entry.id, links.iter().any(|l| l.id == entry.id));
         let role = match entry.role.as_deref() {
             None => Role::Inner,
-            Some("frame") => Role::Frame,
+            Some("frame" | "ground") => Role::Frame,
             Some("output") => Role::Output,
-            Some("object") => Role::Object,
+            Some("object" | "part") => Role::Object,
             Some(word) => {
                 at.key("role")
                     .unknown("role", word, ["frame", "output", "object"]);

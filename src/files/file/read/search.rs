@@ -11,6 +11,7 @@ use crate::file::schema::{JointEntry, MechanismFile, OptionEntry};
 use crate::file::{Findings, Place};
 use crate::geom::extent::diagonal;
 use crate::geom::vector::real;
+use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, JointOption, Mechanism, SearchSpec};
 use itertools::Itertools;
 
@@ -76,7 +77,12 @@ fn allowed(
     // A bad entry of the common list would be reported once per joint.
     let before = at.out.count();
     let option = option(&entry.id, present, item, states, at)?;
-    (at.out.count() == before && !entry.forbid.contains(&option.name)).then_some(option)
+    (at.out.count() == before
+        && !entry
+            .forbid
+            .iter()
+            .any(|f| *f == option.name || JointType::word(f) == option.name))
+    .then_some(option)
 }
 
 /// Off by more than this, as an angle and as a fraction of the mechanism's size, joints are no mirror images, however their

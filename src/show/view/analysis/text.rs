@@ -15,13 +15,14 @@ use std::fmt::Write;
 const MOTIONS: usize = 6;
 
 impl Analysis<'_> {
-    /// The whole analysis but for its stroke, fitted to a terminal of `width` columns where one is given.
+    /// Returns the analysis without its stroke, fitted to a terminal of `width` columns if one is given: what is redundant, what moves, and
+    /// what to change. With `verbose` it also has the counts behind W and σ, the method, the self-stresses and published claims.
     #[must_use]
-    pub fn text(&self, width: Option<u16>) -> String {
+    pub fn text(&self, width: Option<u16>, verbose: bool) -> String {
         let states = self.states.iter().map(|s| {
             let mut out = String::new();
             // Writing to a string cannot fail.
-            let _ = s.write(&mut out, width);
+            let _ = s.write(&mut out, width, verbose);
             if let Some(advice) = s.advice {
                 out += &suggestions::text(s.mechanism, s.found, advice, width);
             }
@@ -32,6 +33,7 @@ impl Analysis<'_> {
                 + &claims::text(
                     &claims::about(&self.mechanism.claims, Topic::Structure),
                     width,
+                    verbose,
                 )),
             width,
         )
@@ -39,7 +41,7 @@ impl Analysis<'_> {
 }
 
 impl State<'_> {
-    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+    fn write(&self, out: &mut String, width: Option<u16>, verbose: bool) -> std::fmt::Result {
         let (m, s) = (self.mechanism, self.found);
         writeln!(
             out,
@@ -49,7 +51,11 @@ impl State<'_> {
             self.verdict(),
             self.mobility_figure()
         )?;
-        self.write_counts(out)?;
+        if verbose {
+            self.write_counts(out)?;
+        } else if s.finite.figure() != s.mobility.to_string() || !s.finite.is_proven() {
+            writeln!(out, "  {}", self.finite())?;
+        }
         for fault in &s.drives {
             writeln!(out, "  {}", idle::fault(m, fault).2)?;
         }
@@ -67,8 +73,11 @@ impl State<'_> {
             writeln!(out, "  {line}")?;
         }
         writeln!(out, "  {}", self.certainty())?;
-        for line in self.method_lines() {
-            writeln!(out, "  {line}")?;
+        // What was done to the coordinates matters to everyone.
+        if verbose || !s.snapped.is_empty() || s.as_written.is_some() {
+            for line in self.method_lines() {
+                writeln!(out, "  {line}")?;
+            }
         }
         self.write_shares(out, width)?;
         if let Some(e) = &s.external {
@@ -81,7 +90,23 @@ impl State<'_> {
                 e.by_rank
             )?;
         }
-        self.write_self_stresses(out, width)
+        if verbose {
+            return self.write_self_stresses(out, width);
+        }
+        let stresses = &s.self_stresses;
+        let harmless = stresses.iter().filter(|t| harm(t) == "harmless").count();
+        match (stresses.len(), harmless) {
+            (0, _) => Ok(()),
+            (_, 0) => writeln!(
+                out,
+                "  All of them strain the joints if parts are inaccurate."
+            ),
+            (all, n) => writeln!(
+                out,
+                "  {} of {all} strain the joints if parts are inaccurate; {n} are harmless: contacts share friction.",
+                all - n
+            ),
+        }
     }
 
     /// What was counted, and W and σ from that.
@@ -185,7 +210,7 @@ impl State<'_> {
         let rows = stresses.iter().map(row).collect();
         writeln!(
             out,
-            "\n{}\n  harmful: loads joints when parts are out of true; harmless: friction shared by the contacts",
+            "\n{}\n  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction",
             table(&head, rows, width)
         )
     }

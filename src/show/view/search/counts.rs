@@ -3,6 +3,7 @@
 use crate::format::{grouped, plural, plural_of};
 use crate::model::mechanism::Mechanism;
 use crate::score::outcome::Outcome;
+use crate::score::request::List;
 use crate::search::check::second_prime::Verdict;
 use crate::search::question::throughout::PoseOnly;
 use crate::view::search::conditions::in_state;
@@ -17,14 +18,14 @@ use std::fmt::Write;
 /// Rows of mobilities told at most; JSON and the page have them all.
 const MOBILITIES: usize = 12;
 
-/// Above a list of ideas.
-pub(super) const IDEAS: &str = "ideas, cheapest first: each stands for all that give the same freedoms to the same joints in \
-     series, and is shown by the one that leaves most as it is";
+/// The heading of a list of ideas.
+pub(super) const IDEAS: &str =
+    "ideas, cheapest first; an idea includes all variants that add the same freedoms";
 
-/// The verdict, how it was checked, and the counts by mobility.
-pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
-    let mut out = verdict(outcome);
-    let lines = minimal(outcome).into_iter();
+/// Returns the verdict and how it was checked; with `verbose` also which variants are minimal, and the counts by mobility.
+pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
+    let mut out = verdict(outcome, verbose);
+    let lines = minimal(outcome).filter(|_| verbose).into_iter();
     let lines = lines.chain(numeric::lines(outcome));
     // Writing to a string cannot fail.
     for line in lines.chain(second_opinion::lines(outcome)) {
@@ -46,7 +47,9 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>) -> String {
     {
         let _ = writeln!(out, "  {line}");
     }
-    out += &by_mobility(outcome, width);
+    if verbose || outcome.request.list == List::Nothing {
+        out += &by_mobility(outcome, width);
+    }
     fit(&out, width)
 }
 
@@ -67,8 +70,8 @@ fn keep_motion(mechanism: &Mechanism) -> &'static str {
     }
 }
 
-/// How many variants do all that is asked, and how many are determinate whatever else they do.
-fn verdict(outcome: &Outcome) -> String {
+/// Returns how many variants meet all conditions, and how many have few enough redundant constraints, if counts are asked for.
+fn verdict(outcome: &Outcome, verbose: bool) -> String {
     let mut out = String::new();
     let least = if outcome.is_counted() {
         ""
@@ -122,14 +125,15 @@ fn verdict(outcome: &Outcome) -> String {
     if let Some(line) = in_the_pose(outcome) {
         let _ = writeln!(out, "  {line}");
     }
-    if !more.is_empty() {
+    let counted = verbose || outcome.request.list == List::Nothing;
+    if !more.is_empty() && (counted || outcome.listed_counts().total.is_zero()) {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => determinate(outcome),
         };
         let _ = writeln!(
             out,
-            "  {determinate} with {condition}, whatever else they do"
+            "  {determinate} with {condition} before the other conditions"
         );
     }
     out

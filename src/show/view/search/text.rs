@@ -24,6 +24,7 @@ use std::io;
 const BLOCK: usize = 1000;
 
 /// Writes an outcome with its variants as they come, the remarks, and what to do next. `file` is the argument that named the mechanism.
+/// With `verbose` it also writes the counts by mobility, σ by contour, and what each of the first ideas does.
 ///
 /// # Errors
 /// Those of the writer.
@@ -34,8 +35,9 @@ pub fn write(
     remarks: &Remarks,
     file: &str,
     width: Option<u16>,
+    verbose: bool,
 ) -> io::Result<()> {
-    write!(out, "{}", counts(outcome, width))?;
+    write!(out, "{}", counts(outcome, width, verbose))?;
     let why = hopeless(&outcome.search.mechanism, &remarks.hopeless);
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
@@ -51,11 +53,13 @@ pub fn write(
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
         // Shares of contours are found in exact arithmetic.
-        if outcome.numeric.is_none() {
+        if outcome.numeric.is_none() && (verbose || block.iter().any(|v| v.redundant() > 0)) {
             write!(out, "{}", contours(&block, width))?;
         }
         if outcome.request.distinct && first.position() == 1 {
-            let shown = block.iter().map(Variant::assignment).collect_vec();
+            let told = if verbose { why::TOLD } else { 1 };
+            let shown = block.iter().take(told).map(Variant::assignment);
+            let shown = shown.collect_vec();
             write!(out, "{}", fit(&why::text(outcome, &shown), width))?;
         }
         footnotes.extend(block.iter().filter_map(note));
@@ -84,7 +88,7 @@ pub fn write(
     } else {
         let given = if sample { 0 } else { summary.given };
         if given > 0 {
-            next_of_some(outcome, changed, file)
+            next_of_some(outcome, changed, file, verbose)
         } else {
             next_of_none(outcome, remarks, file)
         }
@@ -194,7 +198,7 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 
 /// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
-fn next_of_some(outcome: &Outcome, changed: bool, file: &str) -> Vec<NextCommand> {
+fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> Vec<NextCommand> {
     let flags = &flags(outcome);
     let number = outcome.request.one();
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
@@ -223,7 +227,11 @@ fn next_of_some(outcome: &Outcome, changed: bool, file: &str) -> Vec<NextCommand
             "the first of the list as a mechanism file of its own",
         ),
     ];
-    own.into_iter().chain(steps).collect()
+    let more = (!verbose).then(|| {
+        let gives = "counts by mobility, and what each of the first three does";
+        NextCommand::new("search", file, &joined("--verbose"), gives)
+    });
+    own.into_iter().chain(steps).chain(more).collect()
 }
 
 /// The options that a search was asked with. `--idea` says that ideas are meant.

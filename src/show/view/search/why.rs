@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Ideas that a text says why of: the first. Data have all.
-const TOLD: usize = 3;
+pub(super) const TOLD: usize = 3;
 /// Loads below this part of the largest are not told.
 const RESIDUAL: f64 = 1e-9;
 

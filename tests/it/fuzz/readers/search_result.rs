@@ -104,6 +104,7 @@ fn written(outcome: &Outcome) -> String {
         &none,
         "x",
         Some(80),
+        true,
     )
     .unwrap();
     let told: Value = serde_json::from_slice(&told).unwrap();

@@ -12,7 +12,7 @@ impl Study {
         match self.view {
             View::Regions | View::Best => self.stretches(),
             View::Shares => self.shares(),
-            View::Times => format!("{} {}", self.stretches(), self.times()),
+            View::Times | View::Ratios => format!("{} {}", self.stretches(), self.times()),
             View::Errors(degree) => self.errors(degree),
         }
     }
@@ -92,7 +92,10 @@ impl Study {
                     (y1 / y0).ln() / (x1 / x0).ln()
                 )
             });
-            Some(format!("{name} {} at {x1}{grows}", duration(y1)))
+            Some(match self.view {
+                View::Times => format!("{name} {} at {x1}{grows}", duration(y1)),
+                _ => format!("{name} {y1:.1} at {x1}"),
+            })
         });
         format!("Times: {}.", told.collect::<Vec<_>>().join("; "))
     }
@@ -134,7 +137,7 @@ impl Study {
 
     fn value(&self, x: f64) -> String {
         match self.view {
-            View::Times => x.to_string(),
+            View::Times | View::Ratios => x.to_string(),
             _ => scientific(x),
         }
     }

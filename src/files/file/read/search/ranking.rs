@@ -118,22 +118,27 @@ pub(crate) fn joint_types(
     };
     for (name, entry) in &file.joint_types {
         let at = out.key("joint_types").key(name);
+        let name = if offered(name) {
+            name
+        } else {
+            JointType::word(name)
+        };
         if name != "custom" && JointType::from_name(name).is_none() && !offered(name) {
             let known = JointType::NAMED.iter().map(JointType::name);
             at.unknown("joint type", name, known.chain(["custom"]));
         }
         check_figures(entry, &at);
         let milli = entry.cost.and_then(|c| at.key("cost").cost(c));
-        costs.extend(milli.map(|milli| (name.clone(), milli)));
+        costs.extend(milli.map(|milli| (name.to_owned(), milli)));
         let says = TypeOverride {
-            name: name.clone(),
+            name: name.to_owned(),
             capacity_force: entry.capacity_force,
             capacity_moment: entry.capacity_moment,
             clearance: entry.clearance,
         };
         // An entry of a cost alone says nothing of what the type bears.
         let nothing = TypeOverride {
-            name: name.clone(),
+            name: name.to_owned(),
             ..TypeOverride::default()
         };
         found.extend((says != nothing).then_some(says));

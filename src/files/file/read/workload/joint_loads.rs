@@ -63,7 +63,10 @@ pub(crate) fn stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, S
             let types = JointType::NAMED.iter().map(JointType::name);
             at.unknown("joint type", name, types.chain(["custom", "default"]));
         }
-        (name.clone(), Stiffness { linear, angular })
+        (
+            JointType::word(name).to_owned(),
+            Stiffness { linear, angular },
+        )
     });
     each.collect()
 }

@@ -5,11 +5,9 @@ const MOST: usize = 5;
 /// How alike two words must be, from 0 to 1.
 const ALIKE: f64 = 0.75;
 
-/// The known words nearest to `word`, best first: those spelt alike, then those that contain it or are contained in it.
-pub(in crate::cli) fn near<'a>(
-    word: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Vec<&'a str> {
+/// Returns the known words nearest to `word`, best first: those of similar spelling, then those that contain it or are contained in it.
+#[must_use]
+pub fn near<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let word = word.to_lowercase();
     if word.is_empty() {
         return Vec::new();
@@ -29,13 +27,15 @@ pub(in crate::cli) fn near<'a>(
     found.into_iter().map(|(_, k)| k).collect()
 }
 
-/// "; did you mean this, that or the other?", or nothing.
-pub(in crate::cli) fn hint<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+/// Returns "; did you mean this, that or the other?", or an empty text if no known word is near.
+#[must_use]
+pub fn hint<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     question(&near(word, known))
 }
 
-/// The same of words already chosen.
-pub(in crate::cli) fn question(near: &[&str]) -> String {
+/// Returns the same for words that are chosen already.
+#[must_use]
+pub fn question(near: &[&str]) -> String {
     match near {
         [] => String::new(),
         [one] => format!("; did you mean {one}?"),
