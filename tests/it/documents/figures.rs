@@ -189,7 +189,9 @@ fn the_guide_has_the_energies_of_the_built_in_drive() {
     let share = last.split_once(')').unwrap().0;
     says(
         "src/guide/drive.md",
-        &format!("out by half a percent {share} of its samples last"),
+        &format!(
+            "With a tolerance of 0.5 %, {share} of its samples repeat the programme without end"
+        ),
     );
 }
 
