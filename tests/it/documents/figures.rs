@@ -44,7 +44,7 @@ fn records_of_the_methods_are_those_of_the_survey() {
         says(MOBILITY, &format!("| {of} | {cells} |"));
     };
     says(MOBILITY, &format!("any of {} methods", registry::ALL.len()));
-    says(MOBILITY, &format!("Of {all} cases:"));
+    says(MOBILITY, &format!("Results for {all} cases:"));
     for (m, method) in registry::ALL.iter().enumerate() {
         let (about, record) = (method.about(), SURVEY.standing(m));
         let of = format!("`{}`: {}", about.name, about.title);

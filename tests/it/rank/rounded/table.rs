@@ -83,7 +83,7 @@ fn judged(
     };
     let rows: Vec<String> = table.iter().map(row).collect();
     rows.iter().for_each(|row| println!("{row}"));
-    says(GUIDE, &format!("Of {} cases each", 3 * cases.len()));
+    says(GUIDE, &format!("For {} cases each", 3 * cases.len()));
     let stated = between(GUIDE, &format!("rounded: {what}"));
     let stated = stated
         .lines()
