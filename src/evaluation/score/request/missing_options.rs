@@ -60,14 +60,15 @@ impl Outcome {
             .collect()
     }
 
-    /// Returns the request with more joint types at some joints.
+    /// Returns the request with more joint types: at all joints if it names types for all, else at the given joints.
     fn widened(&self, allow: Vec<JointOptions>) -> Request {
         let mut wider = self.request.clone();
-        if !wider.options.is_empty() {
-            let names = allow.iter().flat_map(|a| &a.names).cloned();
-            wider.options.extend(names.collect_vec());
+        if wider.options.is_empty() {
+            wider.allow.extend(allow);
+        } else {
+            let more = allow.into_iter().flat_map(|a| a.names);
+            wider.options = wider.options.into_iter().chain(more).unique().collect();
         }
-        wider.allow.extend(allow);
         wider
     }
 
