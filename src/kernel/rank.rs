@@ -1,4 +1,4 @@
-//! Rank of the closure matrix, with what each method knows about its answer.
+//! Rank of the closure matrix, with the certainty of each method's result.
 
 pub mod exact;
 pub mod finite;

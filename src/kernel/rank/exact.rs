@@ -1,4 +1,4 @@
-//! Ranks and kernels in exact arithmetic: modulo primes, over the rationals, and certificates of them.
+//! Ranks and kernels in exact arithmetic: modulo primes, over the rationals, and with certificates.
 
 pub mod certificate;
 pub(in crate::rank) mod elimination_order;

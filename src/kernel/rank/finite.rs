@@ -1,4 +1,4 @@
-//! Finite (full-cycle) mobility: the dimension of the motion that is really there, beside the instantaneous f - rank J.
+//! Finite (full-cycle) mobility: the dimension of the actual motion, as opposed to the instantaneous f - rank J.
 
 pub mod at_rest;
 pub mod bonds;
@@ -35,31 +35,33 @@ use ozols_dense::singular_values;
 
 pub use mobility::{Finite, How, Proof};
 
-/// Work of one closing, rows² · columns, up to which a pose is followed at all.
+/// Work of one closure, rows² · columns, up to which the motion of a pose is followed.
 const LARGEST: usize = 30_000_000;
-/// Work of all closings together.
+/// Work of all closures together.
 const WORK: usize = 5_000_000_000;
-/// Units of coordinates, relative to the size, above which shaky poses close like motions: Wren's platform did with eight decimals.
+/// Units of coordinates, relative to the size, above which shaky poses close like motions. Wren's platform did with
+/// eight decimals.
 const COARSE: f64 = 2e-9;
-/// The same where one motion alone is in question, of which nothing of second order is left.
+/// The same limit for a single motion that has no second-order terms.
 const COARSE_ALONE: f64 = 1e-3;
-/// Contours of rounded coordinates need not close better than this many times the coarsest unit.
+/// Factor of the coarsest unit within which contours with rounded coordinates have to close.
 const OPEN: f64 = 4.0;
-/// Singular values of parts below this share of the largest are zero: their geometry was moved until they were.
+/// Share of the largest singular value below which a part's value is zero. The geometry of these parts was moved until
+/// it was.
 const SEPARATE: f64 = 1e-9;
-/// Orders up to which coordinates may begin to move for following to be believed.
+/// Highest order at which coordinates may begin to move if the result of following is to be believed.
 const SEEN: usize = 8;
-/// Closings at most.
+/// Maximum number of closures.
 const CLOSINGS: usize = 1_000;
 
-/// The finite mobility of a state: proven by groups or by higher order where that works, followed numerically where not;
-/// part by part where the mechanism falls into parts.
+/// Returns the finite mobility of a state. It is proven by groups or by higher order if possible, and followed
+/// numerically otherwise. Independent parts are treated separately.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// One rank, and where nothing is proven the closings of [`local_dimension::mobility`].
+/// One rank and, if nothing is proven, the closures of [`local_dimension::mobility`].
 pub fn finite(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -69,10 +71,10 @@ pub fn finite(
     finite_known(exact, mechanism, closure, rank, None)
 }
 
-/// [`finite`] for coordinates that may not be exact: as they are given, they are those that are meant.
+/// Works as [`finite`] for coordinates that may not be exact. The given coordinates are the intended ones.
 ///
 /// # Errors
-/// As [`finite`].
+/// Returns an error in the same cases as [`finite`].
 pub(crate) fn finite_known(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -85,7 +87,7 @@ pub(crate) fn finite_known(
     }
     let state = closure.state;
     let parts = independent_parts::parts(closure);
-    // Joints in no contour move as they like.
+    // Joints in no contour move freely.
     let inside = |j: JointId| parts.iter().any(|p| p.contains(&j));
     let free = closure.columns.iter().filter(|c| !inside(c.joint)).count();
     let mut total = Finite::new(free, How::Rigid);
@@ -112,7 +114,7 @@ pub(crate) fn finite_known(
     Ok(total)
 }
 
-/// A part whose motion ranks do not decide: by higher order, and by going there.
+/// Returns the finite mobility of a part that ranks do not decide, by higher order and by following the motion.
 fn moved(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -129,7 +131,7 @@ fn moved(
     })
 }
 
-/// A part whose motion ranks do not decide and whose coordinates are exact.
+/// Returns the finite mobility of a part with exact coordinates that ranks do not decide.
 fn exactly(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -162,7 +164,7 @@ fn exactly(
             },
         ));
     }
-    // Not everything that moves at first order moves, where series stop it in a random direction.
+    // If series stop the motion in a random direction, not every first-order motion is finite.
     let shaky = stopped.is_some();
     if !scales::are_alike(exact, mechanism, closure.state)? {
         let (from, to) = (0, instantaneous - usize::from(shaky));
@@ -176,7 +178,8 @@ fn exactly(
     let Some(found) = pursued(pose, instantaneous, shaky) else {
         return Ok(too_large(instantaneous - usize::from(shaky)));
     };
-    // What begins to move with a high power of the way pushes, if at all, with one that doubles do not see.
+    // A coordinate that begins to move with a high power of the path length pushes with a higher one, if at all, which
+    // doubles do not resolve.
     let seen = line.is_none_or(|l| l.begun <= SEEN);
     let found = if seen { found } else { unseen(found) };
     if found.regular {
@@ -192,12 +195,12 @@ fn exactly(
     })
 }
 
-/// What is proven where all of so many instantaneous motions are stopped.
+/// Returns the proven result if all `motions` instantaneous motions are stopped.
 fn nothing_moves(order: usize, motions: usize) -> Finite {
     Finite::new(0, How::Stopped { order, motions })
 }
 
-/// Follows the motion of a pose, where it is not too large for that.
+/// Follows the motion of a pose, unless it is too large.
 fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
     let work = pose.rows() * pose.rows() * pose.columns.len();
     if work > LARGEST {
@@ -207,7 +210,7 @@ fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
     local_dimension::mobility(pose, instantaneous, shaky, budget)
 }
 
-/// What following shows where gaps may be too small to be seen: no more than what is excluded.
+/// Returns the result of following if gaps may be too small to be seen: only the upper bound counts.
 fn unseen(found: Traced) -> Traced {
     Traced {
         mobility: 0,
@@ -216,12 +219,12 @@ fn unseen(found: Traced) -> Traced {
     }
 }
 
-/// What is not followed: at most what moves instantaneously.
+/// Returns the result for a pose that is not followed: at most the instantaneous mobility.
 fn too_large(to: usize) -> Finite {
     Finite::new(0, How::Bound { to })
 }
 
-/// What following the motion says.
+/// Converts the result of following the motion.
 fn of_pursuit(found: Traced) -> Finite {
     let (from, to) = (found.mobility, found.at_most);
     let how = if from < to {
@@ -235,11 +238,11 @@ fn of_pursuit(found: Traced) -> Finite {
     Finite::new(from, how)
 }
 
-/// The finite mobility by following the motion alone; at most `instantaneous` where it is too large for that. `accuracy` is the
-/// relative error of the coordinates, 0 where they are exact.
+/// Returns the finite mobility by following the motion only, or at most `instantaneous` if the mechanism is too large.
+/// `accuracy` is the relative error of the coordinates, 0 if they are exact.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 pub fn followed(
     mechanism: &Mechanism,
     state: StateId,
@@ -254,9 +257,11 @@ pub fn followed(
     Ok(found.map_or(too_large(instantaneous), of_pursuit))
 }
 
-/// What the digits of a part leave of its motion. `exact` is what holds of the coordinates as they are given, where these are exact:
-/// its motions are there, but equal lengths and angles may be lost, so what it stops is stopped only where the digits cannot
-/// have made what stops it.
+/// Returns the motion of a part that the rounding of its coordinates leaves open.
+///
+/// `exact` is the result for the coordinates as given, if these are exact. The motions in it exist, but equal lengths
+/// and angles may be lost by rounding. So a motion that it stops counts as stopped only if rounding cannot have caused
+/// the obstruction.
 fn within_digits(
     mechanism: &Mechanism,
     pose: &Pose,
@@ -286,7 +291,8 @@ fn within_digits(
     } else {
         COARSE
     };
-    // What is neither zero nor clearly not says nothing, nor does what is stopped by relations that the digits mean.
+    // Values that are neither zero nor clearly nonzero decide nothing. The same holds for obstructions that follow from
+    // intended relations.
     let stopped = most < instantaneous;
     let may_move = stopped || second.is_some_and(|s| s.may_vanish());
     if exact.is_some() || known.unit > coarse || !may_move {
@@ -304,10 +310,10 @@ fn within_digits(
     }
 }
 
-/// What the digits leave of the motion of a mechanism in doubles.
+/// Returns the motion of a mechanism in doubles that the rounding of its coordinates leaves open.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 pub(super) fn within(
     mechanism: &Mechanism,
     state: StateId,
@@ -329,7 +335,7 @@ pub(super) fn within(
 /// Freedoms of joints in no contour, and the parts with their instantaneous mobilities.
 type Parts = (usize, Vec<(Mechanism, usize)>);
 
-/// The parts that a mechanism in doubles falls into.
+/// Returns the independent parts of a mechanism in doubles.
 fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     let closure = Closure::new(&Reals, mechanism, state).ok()?;
     let parts = independent_parts::parts(&closure);
@@ -342,22 +348,23 @@ fn numeric_parts(mechanism: &Mechanism, state: StateId) -> Option<Parts> {
     Some((free, each.collect::<Option<_>>()?))
 }
 
-/// The instantaneous mobility of a mechanism in doubles whose geometry was moved until it has it.
+/// Returns the instantaneous mobility of a mechanism in doubles whose geometry was moved until it has that mobility.
 fn numeric_mobility(mechanism: &Mechanism, state: StateId) -> Option<usize> {
     let own = Closure::new(&Reals, mechanism, state).ok()?;
     let values = singular_values(&scaled(&own))?;
     Some(own.columns.len() - rank_of_values(values, SEPARATE).rank)
 }
 
-/// [`within`] of one part.
+/// Applies [`within`] to one part.
 fn whole_within(
     mechanism: &Mechanism,
     state: StateId,
     instantaneous: usize,
     known: &Roundings,
 ) -> Result<Finite, ExactError> {
-    // A rod between two balls spins wherever they are, whatever the digits. What is locked of it exactly may be left by rounding
-    // alone, where the rod lies all but along a plane of the ball's axes.
+    // A rod between two balls spins in any position, whatever the digits. An exactly locked freedom may remove this
+    // spin only because of rounding, if the rod lies almost along a plane of the ball's axes. So the numeric mobility
+    // is compared.
     let mut locked = mechanism.clone();
     let idle = field_of(mechanism, state, 0)
         .ok()
@@ -381,7 +388,8 @@ mod tests {
     use crate::model::drawn::{drawn, hinges};
     use crate::model::rounded::Uncertainties;
 
-    /// Two motions of a ring of five hinges are there; but digits that would hide what stops a shaky pose do not tell that one.
+    /// Two motions of a ring of five hinges exist. Digits too coarse to show what stops a shaky pose cannot distinguish
+    /// it from these.
     #[test]
     fn of_coarse_digits_two_motions_are_not_told_from_shaky_ones() {
         let ring = [

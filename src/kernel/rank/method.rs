@@ -1,4 +1,4 @@
-//! What every way of saying how far a mechanism moves has in common; [`crate::rank::method::registry`] lists them.
+//! Common interface of all mobility methods; [`crate::rank::method::registry`] lists them.
 
 pub mod auto;
 pub(crate) mod finite_exact;
@@ -12,40 +12,40 @@ use crate::model::mechanism::{Mechanism, StateId};
 use std::fmt::Debug;
 use thiserror::Error;
 
-/// What an answer is about.
+/// The quantity that an answer describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// A count from the structure alone.
     Count,
     /// f - rank J at the pose of the file.
     Instantaneous,
-    /// The motion that is really there.
+    /// The finite mobility.
     Finite,
 }
 
-/// How sure an answer is.
+/// Certainty of an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Certainty {
-    /// Counted; nothing is said about the geometry.
+    /// Counted, without any statement about the geometry.
     Counted,
     /// Follows from exact arithmetic, up to primes that divide a minor (below 10^-17 for one prime near 2^61).
     Exact,
-    /// Proven: pivots that do not vanish and a kernel in characteristic 0, confirmed by [`crate::verify`], beside the
+    /// Proven: nonzero pivots and a kernel in characteristic 0, confirmed by [`crate::verify`], in addition to the
     /// ranks over two prime fields.
     Proven {
         /// The primes.
         primes: [u64; 2],
     },
-    /// Rank over two prime fields, on exact geometry. A rank modulo a prime never exceeds the true rank, and falls short
-    /// only where the prime divides a nonzero minor; two primes near 2^61 agree on a wrong rank with probability
-    /// below 10^-30.
+    /// Rank over two prime fields, on exact geometry. A rank modulo a prime never exceeds the true rank, and is smaller
+    /// only if the prime divides a nonzero minor. Two primes near 2^61 agree on a wrong rank with probability below
+    /// 10^-30.
     Modular {
         /// The primes.
         primes: [u64; 2],
     },
     /// Floating point.
     Numeric {
-        /// What the rank is read off, such as `f64 singular values`.
+        /// Source of the rank, such as `f64 singular values`.
         values: &'static str,
         /// Values below this fraction of the largest count as zero.
         tolerance: f64,
@@ -56,21 +56,21 @@ pub enum Certainty {
     },
     /// Followed by Newton's method.
     Traced,
-    /// Coordinates are rounded, and whether as written or as something near was meant is not decided.
+    /// Coordinates are rounded, and it is undecided whether the coordinates as written or nearby ones are intended.
     Undecided {
-        /// The rank with every digit at its word, the most it can be.
+        /// The rank with every digit taken exactly as written, which is the maximum.
         as_written: usize,
-        /// The rank that may be meant.
+        /// The rank that may be intended.
         near: usize,
-        /// The singular value above the gap that tells them apart, relative to the largest.
+        /// The singular value above the gap between the two, relative to the largest.
         kept: f64,
-        /// The one below it.
+        /// The singular value below the gap.
         dropped: f64,
     },
 }
 
 impl Certainty {
-    /// One line for people.
+    /// Describes the certainty in one line for display.
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
@@ -104,7 +104,7 @@ impl Certainty {
         }
     }
 
-    /// The primes that ranks were found modulo.
+    /// Returns the primes used for modular ranks.
     #[must_use]
     pub fn primes(&self) -> Option<[u64; 2]> {
         match *self {
@@ -113,7 +113,7 @@ impl Certainty {
         }
     }
 
-    /// One word for programs.
+    /// Returns one word for programs.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -133,17 +133,17 @@ impl Certainty {
 pub struct Answer {
     /// W.
     pub mobility: i64,
-    /// What it is a mobility of.
+    /// Quantity that the mobility describes.
     pub quantity: Quantity,
-    /// How sure it is.
+    /// Certainty of the mobility.
     pub certainty: Certainty,
 }
 
-/// Why a method has no answer.
+/// Reason why a method has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum NoAnswer {
-    /// The method is not made for such a mechanism.
+    /// The method does not support such a mechanism.
     #[error("does not apply: {0}")]
     DoesNotApply(&'static str),
     /// The geometry has no value in the method's number system.
@@ -154,49 +154,49 @@ pub enum NoAnswer {
     Failed(String),
 }
 
-/// What a whole analysis, with shares and self-stresses, takes from a method.
+/// Kind of rank that a full analysis, with shares and self-stresses, takes from a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RankOfJ {
-    /// Exact or to within a tolerance, as suits the coordinates.
+    /// Exact or within a tolerance, depending on the coordinates.
     Chosen,
     /// Over prime fields.
     Exact,
     /// In floating point.
     Numeric,
-    /// Nothing: the method gives a mobility alone.
+    /// No rank: the method only gives a mobility.
     NotFound,
 }
 
-/// What is said of a method.
+/// Description of a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct About {
     /// One word, as on the command line.
     pub name: &'static str,
-    /// What it does, in a few words.
+    /// Short description.
     pub title: &'static str,
-    /// What it does, in a sentence of the help.
+    /// Description in one sentence, for the help.
     pub help: &'static str,
-    /// When its answer is right.
+    /// Condition under which its answer is right.
     pub guarantee: &'static str,
     /// Its cost for n links, p joints, k contours, f freedoms.
     pub complexity: &'static str,
-    /// Where it comes from.
+    /// Source in the literature.
     pub source: &'static str,
-    /// Whether a whole analysis can rest on it.
+    /// Kind of rank that a full analysis can use.
     pub rank: RankOfJ,
 }
 
-/// A way to the mobility of a mechanism.
+/// A method that computes the mobility of a mechanism.
 pub trait MobilityMethod: Debug + Sync {
-    /// What is said of it.
+    /// Returns the description of the method.
     fn about(&self) -> &'static About;
-    /// One word, as on the command line.
+    /// Returns one word, as on the command line.
     fn name(&self) -> &'static str {
         self.about().name
     }
-    /// The answer for a state.
+    /// Returns the answer for a state.
     ///
     /// # Errors
-    /// Where the method does not apply or fails.
+    /// Returns an error if the method does not apply or fails.
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer>;
 }

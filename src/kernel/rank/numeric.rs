@@ -1,5 +1,5 @@
-//! Rank in floating point: from pivots or QR factors of J as it stands, or from singular values of J scaled so that units
-//! do not matter.
+//! Rank in floating point: from pivots or QR factors of the original J, or from singular values of J scaled so that
+//! units do not matter.
 
 pub(in crate::rank) mod rounding_bound;
 pub mod scaling;
@@ -14,12 +14,13 @@ use crate::rank::numeric::scaling::{as_it_stands, rank_of_values, scaled};
 use ozols_dense::{Format, Matrix, singular_values};
 use thiserror::Error;
 
-/// Values below this fraction of the largest count as zero in double precision unless the caller says otherwise.
+/// Values below this fraction of the largest count as zero in double precision, unless the caller specifies a
+/// tolerance.
 pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// The same in single precision.
 const SINGLE_TOLERANCE: f64 = 1e-4;
 
-/// Why no singular values could be had.
+/// Reason why singular values could not be computed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum NumericError {
@@ -55,14 +56,14 @@ impl Elimination {
         Elimination::Svd,
     ];
 
-    /// The elimination that a method is, if it is one.
+    /// Returns the elimination of a method, if it is one.
     #[must_use]
     pub fn of(method: &dyn MobilityMethod) -> Option<Elimination> {
         let mut all = Elimination::ALL.into_iter();
         all.find(|e| e.about() == method.about())
     }
 
-    /// The relative tolerance that suits its format.
+    /// Returns the relative tolerance that suits its number format.
     #[must_use]
     pub fn default_tolerance(self) -> f64 {
         match self {
@@ -71,10 +72,10 @@ impl Elimination {
         }
     }
 
-    /// The rank of J, with values below this fraction of the largest taken for zero.
+    /// Returns the rank of J, with values below this fraction of the largest treated as zero.
     ///
     /// # Errors
-    /// Where the singular values fail.
+    /// Returns an error if the singular values do not converge.
     ///
     /// # Complexity
     /// O(6k · f · min(6k, f)).
@@ -86,10 +87,10 @@ impl Elimination {
         self.rank_of(&matrix, tolerance)
     }
 
-    /// The rank of any matrix, taken as it is.
+    /// Returns the rank of any matrix, without scaling.
     ///
     /// # Errors
-    /// Where the singular values fail.
+    /// Returns an error if the singular values do not converge.
     pub(crate) fn rank_of(
         self,
         matrix: &Matrix,
@@ -105,8 +106,9 @@ impl Elimination {
         Ok(rank_of_values(values, tolerance))
     }
 
-    /// The mobilities at several tolerances, none where the arithmetic fails. A rank holds for every tolerance between the
-    /// largest value dropped and the smallest kept, so that few decompositions serve many tolerances.
+    /// Returns the mobilities at several tolerances, each `None` if the arithmetic fails. A rank holds for every
+    /// tolerance between the largest dropped value and the smallest kept one, so a few decompositions serve many
+    /// tolerances.
     #[must_use]
     pub fn mobilities(self, closure: &Closure<f64>, tolerances: &[f64]) -> Vec<Option<i64>> {
         let mut last: Option<NumericRank> = None;
@@ -120,7 +122,7 @@ impl Elimination {
         tolerances.iter().map(of).collect()
     }
 
-    /// How sure a rank found at a tolerance is.
+    /// Returns the certainty of a rank found at a tolerance.
     #[must_use]
     pub fn certainty(self, rank: NumericRank, tolerance: f64) -> Certainty {
         Certainty::Numeric {
@@ -138,11 +140,11 @@ impl Elimination {
     }
 }
 
-/// Rank of J by singular values. Lengths are divided by the largest velocity entry first and columns scaled to unit
-/// length, so that the answer does not depend on the unit of length.
+/// Returns the rank of J by singular values. Lengths are first divided by the largest velocity entry and columns scaled
+/// to unit length, so that the result does not depend on the unit of length.
 ///
 /// # Errors
-/// Where the decomposition fails.
+/// Returns an error if the decomposition fails.
 pub(crate) fn rank_with_tolerance(
     closure: &Closure<f64>,
     tolerance: f64,

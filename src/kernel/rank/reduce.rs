@@ -1,4 +1,4 @@
-//! The same rank from fewer rows: in a plane, and in the groups that contours move in.
+//! The same rank from fewer rows: in a plane, and in the displacement groups of contours.
 
 pub mod axis_names;
 pub(crate) mod plane;

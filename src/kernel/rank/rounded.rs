@@ -1,4 +1,4 @@
-//! Coordinates that are rounded: what was meant by them, and whether the digits decide the rank.
+//! Rounded coordinates: the geometry they intend, and whether the digits determine the rank.
 
 pub mod intended;
 pub mod moves;
@@ -10,8 +10,8 @@ use crate::geom::extent::Extent;
 use crate::geom::vector::{Vector, real};
 use crate::model::mechanism::Mechanism;
 
-/// Returns the size of a mechanism that relative tolerances are of: half the diagonal of the box round its joints, or their distance
-/// from the origin where they are one point.
+/// Returns the reference size of a mechanism for relative tolerances. It is half the diagonal of the bounding box of
+/// its joints, or their distance from the origin if they are at one point.
 #[must_use]
 pub fn size(mechanism: &Mechanism) -> f64 {
     let points: Vec<Vector> = mechanism

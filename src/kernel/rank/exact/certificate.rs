@@ -30,10 +30,10 @@ use crate::verify::certificate::{FieldClaim, Witness};
 use crate::verify::matrix::MatrixOverRing;
 use crate::verify::{self, Flaw};
 
-/// The number field of the joints present in a state.
+/// Returns the number field of the joints present in a state.
 ///
 /// # Errors
-/// Where their roots and angles have none that is small enough.
+/// Returns an error if the roots and angles of these joints have no number field that is small enough.
 pub fn number_field(
     mechanism: &Mechanism,
     state: StateId,
@@ -50,10 +50,10 @@ pub fn number_field(
     )
 }
 
-/// J of a state over its number field: what a certificate of it is checked against.
+/// Returns J of a state over its number field, the matrix that a certificate is checked against.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// O(entries) operations in the field.
@@ -78,10 +78,10 @@ pub fn matrix(
     )
 }
 
-/// A certificate of the rank of a state's J, which [`verify::check`] has confirmed.
+/// Returns a certificate of the rank of a state's J, confirmed by [`verify::check`].
 ///
 /// # Errors
-/// A [`NoCertificate`] where there is none within the [`Budget`].
+/// Returns a [`NoCertificate`] if there is none within the [`Budget`].
 ///
 /// # Complexity
 /// As [`certify_matrix`].
@@ -89,10 +89,10 @@ pub fn certify(mechanism: &Mechanism, state: StateId) -> Result<Certificate, NoC
     certify_within(mechanism, state, Budget::default())
 }
 
-/// As [`certify`], within a budget.
+/// Works as [`certify`], within a budget.
 ///
 /// # Errors
-/// A [`NoCertificate`] where there is none within the budget.
+/// Returns a [`NoCertificate`] if there is none within the budget.
 ///
 /// # Complexity
 /// As [`certify_matrix`].
@@ -106,14 +106,14 @@ pub(crate) fn certify_within(
     certify_matrix(&field, &matrix, &mechanism.states[state], budget)
 }
 
-/// A certificate of the rank of a matrix over a number field.
+/// Returns a certificate of the rank of a matrix over a number field.
 ///
 /// # Errors
-/// A [`NoCertificate`] where there is none within the budget.
+/// Returns a [`NoCertificate`] if there is none within the budget.
 ///
 /// # Complexity
-/// For each prime, of which there are some two for each 60 bits of the kernel's numbers, O(d · rows · rank · columns +
-/// d² · kernel entries) operations modulo it for degree d; then as [`verify::check`].
+/// For each prime O(d · rows · rank · columns + d² · kernel entries) operations modulo it, for degree d. There are
+/// about two primes for each 60 bits of the kernel's numbers. Then as [`verify::check`].
 pub fn certify_matrix(
     field: &NumberField,
     matrix: &MatrixOverRing,
@@ -144,7 +144,7 @@ pub fn certify_matrix(
         };
         match verify::check(matrix, &certificate) {
             Ok(_) => Ok(Some(certificate)),
-            // Numbers that looked settled and are not yet.
+            // Some numbers were settled too early.
             Err(Flaw::NotInKernel { .. }) => Ok(None),
             Err(flaw) => Err(NoCertificate::Rejected(flaw)),
         }

@@ -1,4 +1,4 @@
-//! The order in which contours are eliminated, fewest neighbours first, and what each one's front is made of.
+//! The elimination order of the contours, fewest neighbours first, and the composition of each front.
 
 use crate::closure::{Closure, Column};
 use crate::linalg::modp::Residue;
@@ -6,7 +6,7 @@ use crate::model::mechanism::JointId;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Up to so many contours, looking at all is faster than a heap.
+/// Number of contours up to which a linear scan is faster than a heap.
 const FEW: usize = 12;
 
 /// A set of contours for each contour, as rows of bits.
@@ -58,20 +58,20 @@ impl Sets {
     }
 }
 
-/// What is known before any arithmetic. A coupling takes part as one more contour, of whose rows all but the first are
-/// zeros.
+/// Plan of the elimination, made before any arithmetic. A coupling takes part as one more contour, whose rows are zero
+/// except for the first.
 pub(in crate::rank) struct EliminationPlan {
-    /// Per joint, where its columns begin and end.
+    /// Start and end of the columns of each joint.
     columns_of: Vec<(usize, usize)>,
-    /// Per joint, where its contours begin in `passes`; one more at the end.
+    /// Start of the contours of each joint in `passes`, with one more entry at the end.
     passes_from: Vec<usize>,
-    /// The contours of each joint, with the direction it is passed in.
+    /// The contours of each joint, with the direction in which they pass it.
     passes: Vec<(usize, bool)>,
-    /// The contours in the order they are eliminated in.
+    /// The contours in elimination order.
     pub(in crate::rank) order: Vec<usize>,
-    /// Per contour, a number that is greater the later it comes in the order.
+    /// For each contour, a number that increases along the order.
     pub(in crate::rank) place: Vec<usize>,
-    /// Per contour, those that its front has rows of besides its own.
+    /// For each contour, the other contours that have rows in its front.
     pub(in crate::rank) neighbours: Sets,
 }
 
@@ -112,7 +112,7 @@ impl EliminationPlan {
         }
         let mut passes = vec![(0, true); passes_from[joints]];
         for (i, j, forward) in incidences() {
-            // The starts move to the ends, and back below.
+            // The starts move to the ends here, and back below.
             passes[passes_from[j]] = (i, forward);
             passes_from[j] += 1;
         }
@@ -155,10 +155,10 @@ impl EliminationPlan {
     }
 }
 
-/// The order of elimination, and for each contour a number that grows along it; leaves in each set the neighbours that
-/// the contour has when its turn comes.
+/// Returns the elimination order, and for each contour a number that increases along it. Each set is reduced to the
+/// neighbours that the contour has when it is eliminated.
 fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> (Vec<usize>, Vec<usize>) {
-    // Above all degrees.
+    // Greater than any degree.
     const DONE: usize = usize::MAX / 2;
     let mut degree: Vec<usize> = (0..k).map(|c| neighbours.len(c)).collect();
     let mut order = Vec::with_capacity(k);

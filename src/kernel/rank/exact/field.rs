@@ -5,7 +5,7 @@ use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{Frame, JointOption, Mechanism, Mode, StateId};
 
-/// Coordinates of a joint's frame.
+/// Returns the coordinates of a joint's frame.
 pub(in crate::rank) fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr> {
     frame
         .point
@@ -15,7 +15,7 @@ pub(in crate::rank) fn coordinates(frame: &Frame) -> impl Iterator<Item = &Expr>
         .chain([&frame.pitch])
 }
 
-/// Coordinates of the plane's normal, if there is one.
+/// Returns the coordinates of the plane's normal, or nothing if there is none.
 pub(in crate::rank) fn normal(mechanism: &Mechanism) -> &[Expr] {
     match &mechanism.mode {
         Mode::Spatial => &[],
@@ -23,10 +23,10 @@ pub(in crate::rank) fn normal(mechanism: &Mechanism) -> &[Expr] {
     }
 }
 
-/// The exact field of the joints present in a state, in the `nth` suitable prime.
+/// Returns the exact field of the joints present in a state, in the `nth` suitable prime.
 ///
 /// # Errors
-/// Where no prime suits, see [`ExactField`].
+/// Returns an error if no prime is suitable, see [`ExactField`].
 pub fn field_of(
     mechanism: &Mechanism,
     state: StateId,
@@ -40,10 +40,10 @@ pub fn field_of(
     ExactField::for_expressions(of_frames.chain(normal(mechanism)).chain(&couplings), nth)
 }
 
-/// The exact field of a mechanism: all its coordinates, in the `nth` suitable prime.
+/// Returns the exact field of a mechanism for all its coordinates, in the `nth` suitable prime.
 ///
 /// # Errors
-/// Where no prime suits, see [`ExactField`].
+/// Returns an error if no prime is suitable, see [`ExactField`].
 pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, ExactError> {
     let frames = mechanism.joints.iter().flat_map(|j| {
         std::iter::once(&j.frame)
@@ -56,7 +56,7 @@ pub fn exact_field(mechanism: &Mechanism, nth: usize) -> Result<ExactField, Exac
     ExactField::for_expressions(of_frames.chain(others), nth)
 }
 
-/// What the rows of couplings need values of: their entries, for the present joints and for every option of them.
+/// Returns the entries of the coupling rows, for the original joints and for each of their options.
 fn coupling_expressions(mechanism: &Mechanism) -> Vec<Expr> {
     let mut out = Vec::new();
     for coupling in &mechanism.couplings {

@@ -1,8 +1,8 @@
 //! The kernel of a matrix over a number field, in reduced form, from its images modulo many primes.
 //!
-//! At a prime that splits the field there are as many homomorphisms as its degree. The reduced kernels of the images are
-//! the images of the reduced kernel, so that their values give the coordinates of each entry modulo the prime; the
-//! coordinates themselves follow by the Chinese remainder theorem and rational reconstruction.
+//! A prime that splits the field has as many homomorphisms as the degree of the field. The reduced kernels of the
+//! images are the images of the reduced kernel, so their values give the coordinates of each entry modulo the prime.
+//! The coordinates themselves follow by the Chinese remainder theorem and rational reconstruction.
 //!
 //! # Sources
 //! von zur Gathen & Gerhard, "Modern Computer Algebra", ch. 5 (computing modulo many small primes, Chinese remainders,
@@ -24,13 +24,13 @@ use crate::verify::Flaw;
 use crate::verify::certificate::{KernelVector, Minor};
 use crate::verify::matrix::MatrixOverRing;
 
-/// Primes that may be useless before the search is given up.
+/// Number of useless primes after which the search stops.
 const MAX_BAD_PRIMES: usize = 64;
 
-/// Numbers in a row that may be too long yet before no more are looked at.
+/// Number of consecutive numbers that may still be too long before the attempt stops.
 const MAX_FAILURES: usize = 8;
 
-/// Why there is no certificate. The rank modulo primes is not in doubt for that.
+/// Reason why there is no certificate. It casts no doubt on the rank modulo primes.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoCertificate {
@@ -46,34 +46,34 @@ pub enum NoCertificate {
         /// f · (f - r) · degree.
         coordinates: usize,
     },
-    /// It would take longer than the budget allows.
+    /// The computation would take longer than the budget allows.
     #[error("it takes some {operations} operations, over the budget")]
     TooMuchWork {
-        /// Operations done and to be done.
+        /// Number of operations, done and remaining.
         operations: u64,
     },
     /// The numbers in the kernel are longer than the budget allows.
     #[error("the numbers in the kernel are not settled after {primes} primes")]
     TooManyPrimes {
-        /// Primes used.
+        /// Number of primes used.
         primes: usize,
     },
     /// Not enough primes split the field.
     #[error("no prime was found that splits the number field, or shows that it is one")]
     NoPrimes,
-    /// The certificate that was made has a flaw: a bug.
+    /// The certificate has a flaw, which is a bug.
     #[error("the certificate was rejected: {0}; report this with the file")]
     Rejected(Flaw),
 }
 
-/// How much a certificate may cost.
+/// Cost limits of a certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Budget {
-    /// Most coordinates of a kernel, f · (f - r) · degree.
+    /// Maximum number of coordinates of a kernel, f · (f - r) · degree.
     pub coordinates: usize,
-    /// Most primes.
+    /// Maximum number of primes.
     pub primes: usize,
-    /// Most elementary operations, of some nanoseconds each.
+    /// Maximum number of elementary operations, of a few nanoseconds each.
     pub operations: u64,
 }
 
@@ -95,20 +95,21 @@ struct Pivots {
 }
 
 impl Pivots {
-    /// A prime can only lower the rank and move the pivots to the right.
+    /// Returns true if these pivots are worse than the others. A prime can only lower the rank and move the pivots to
+    /// the right.
     fn worse_than(&self, other: &Pivots) -> bool {
         (other.columns.len(), &self.columns) > (self.columns.len(), &other.columns)
     }
 }
 
-/// The matrix modulo a prime under one homomorphism, reduced.
+/// The reduced matrix modulo a prime under one homomorphism.
 struct Image {
     pivots: Pivots,
-    /// Entries of the reduced kernel at the pivots: vector by vector, pivots ascending.
+    /// Entries of the reduced kernel at the pivots, vector by vector, with ascending pivots.
     entries: Vec<Residue>,
 }
 
-/// What one prime says.
+/// Results for one prime.
 struct Views {
     pivots: Pivots,
     minor: Minor,
@@ -116,7 +117,7 @@ struct Views {
     coordinates: Vec<Residue>,
 }
 
-/// A kernel that is being put together.
+/// A kernel under construction.
 #[derive(Debug)]
 pub(in crate::rank) struct Kernel<'a> {
     field: &'a NumberField,
@@ -145,8 +146,8 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Takes primes until the kernel has stopped changing and `confirm` is content with it: it is handed the minor and
-    /// the vectors, and says false where they were found too early.
+    /// Adds primes until the kernel stops changing and `confirm` accepts it. `confirm` gets the minor and the vectors,
+    /// and returns `None` if they were settled too early.
     pub(in crate::rank) fn run<T>(
         mut self,
         mut confirm: impl FnMut(Minor, Vec<KernelVector>) -> Result<Option<T>, NoCertificate>,
@@ -181,7 +182,7 @@ impl<'a> Kernel<'a> {
                 .as_ref()
                 .is_none_or(|(p, _)| p.columns != views.pivots.columns)
             {
-                // The first prime, or all those before were unlucky.
+                // This is the first prime, or all earlier ones were unlucky.
                 let free = self.matrix.columns() - views.pivots.columns.len();
                 let coordinates = [self.matrix.columns(), free, degree]
                     .into_iter()
@@ -219,7 +220,7 @@ impl<'a> Kernel<'a> {
                     .filter(|u| matches!(u, Unknown::Open(_)));
                 self.operations += (open.count() * primes) as u64;
             }
-            // Reconstruction costs the square of the number of primes: not after every one.
+            // Reconstruction costs the square of the number of primes, so it is not tried after every prime.
             if primes >= attempt {
                 self.settle()?;
                 attempt = primes + 1 + primes / 8;
@@ -237,7 +238,7 @@ impl<'a> Kernel<'a> {
         Ok(())
     }
 
-    /// Operations of the checker's products of J with the kernel.
+    /// Returns the number of operations in the checker's products of J with the kernel.
     fn cost_of_checking(&self, vectors: &[KernelVector]) -> u64 {
         let products: usize = vectors
             .iter()
@@ -245,11 +246,11 @@ impl<'a> Kernel<'a> {
             .map(|(column, _)| self.matrix.column(*column).len())
             .sum();
         let degree = self.field.ring().dimension();
-        // Each of degree² products of integers, as long as the primes are many.
+        // Each takes degree² products of integers, whose length is that of all primes.
         (products * degree * degree * (16 + self.modulus.primes())) as u64
     }
 
-    /// Reconstructs what is open, as far as the budget goes.
+    /// Reconstructs the open numbers, as far as the budget allows.
     fn settle(&mut self) -> Result<(), NoCertificate> {
         let primes = self.modulus.primes() as u64;
         let pivots = self.found.as_ref().map_or(0, |(p, _)| p.columns.len());
@@ -270,7 +271,7 @@ impl<'a> Kernel<'a> {
                         64 * primes * primes
                     }
                 };
-                // The rest will hardly be shorter.
+                // The remaining numbers are unlikely to be shorter.
                 if failures >= MAX_FAILURES {
                     return Ok(());
                 }
@@ -282,8 +283,8 @@ impl<'a> Kernel<'a> {
         self.within_budget()
     }
 
-    /// The pivots and the coordinates of the kernel at a prime; `None` where its homomorphisms disagree, or the prime
-    /// divides a denominator or the discriminant.
+    /// Returns the pivots and the coordinates of the kernel at a prime. Returns `None` if its homomorphisms disagree,
+    /// or if the prime divides a denominator or the discriminant.
     fn views(&mut self, splitting: &Splitting) -> Option<Views> {
         let (f, ring) = (splitting.field, self.field.ring());
         let mut values: Vec<Vec<Residue>> = Vec::new();
@@ -330,7 +331,7 @@ impl<'a> Kernel<'a> {
         })
     }
 
-    /// The reduced kernel under one homomorphism.
+    /// Returns the reduced kernel under one homomorphism.
     fn image(&self, f: Field, monomials: &[Residue]) -> Option<Image> {
         let width = self.matrix.columns();
         let mut rows = vec![vec![f.zero(); width]; self.matrix.rows()];
@@ -355,7 +356,7 @@ impl<'a> Kernel<'a> {
         })
     }
 
-    /// The vectors as they are known so far.
+    /// Returns the vectors in their current state.
     fn vectors(&self) -> Vec<KernelVector> {
         let Some((pivots, _)) = &self.found else {
             return Vec::new();
@@ -390,7 +391,7 @@ fn free_columns(pivots: &[usize], width: usize) -> impl Iterator<Item = usize> {
     (0..width).filter(move |c| pivots.binary_search(c).is_err())
 }
 
-/// The inverse of a square matrix, by Gauss and Jordan; `None` where there is none. O(n³).
+/// Inverts a square matrix by Gauss-Jordan elimination, in O(n³). Returns `None` if it is singular.
 fn inverted(f: Field, mut m: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
     let size = m.len();
     for (i, row) in m.iter_mut().enumerate() {

@@ -1,14 +1,16 @@
 //! Rank over a prime field, contour by contour.
 //!
-//! A column of J touches only the contours that its joint is part of, with a block of 6 rows (3 in a plane) in each. The
-//! contours are eliminated one at a time, fewest neighbours first. The *front* of a contour is the dense matrix of the
-//! columns that touch it, on its own rows and those of its neighbours. Columns of joints that no other contour passes
-//! come first: they have entries in the contour's own rows only, a problem of 6 rows. At most 6 columns become pivots
-//! and leave; what the others have left lies in the neighbours' rows and goes to the neighbour that is next in order,
-//! made independent first where there are more columns than rows, so that nothing piles up along a chain.
+//! A column of J touches only the contours that its joint is part of, with a block of 6 rows (3 in a plane) in each.
+//! The contours are eliminated one at a time, fewest neighbours first. The *front* of a contour is the dense matrix of
+//! the columns that touch it, on its own rows and those of its neighbours.
 //!
-//! No residue is inverted (an inverse modulo a prime of 61 bits takes as long as a hundred products): columns are
-//! combined crosswise, `v ← u_p·v - v_p·u`, which scales them by something nonzero and leaves the rank alone.
+//! Columns of joints that no other contour passes come first. They have entries in the contour's own rows only, a
+//! problem of 6 rows. At most 6 columns become pivots and leave. The remainder of the other columns lies in the
+//! neighbours' rows and goes to the neighbour that is next in order. It is made independent first if it has more
+//! columns than rows, so that nothing piles up along a chain.
+//!
+//! No residue is inverted, because an inverse modulo a prime of 61 bits takes as long as a hundred products. Columns
+//! are combined crosswise, `v ← u_p·v - v_p·u`, which scales them by a nonzero factor and preserves the rank.
 //!
 //! # Sources
 //! Duff & Reid, "The multifrontal solution of indefinite sparse symmetric linear equations", ACM TOMS 9 (1983), applied
@@ -22,12 +24,13 @@ use crate::rank::exact::elimination_order::EliminationPlan;
 use crate::rank::exact::field::field_of;
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 
-/// Rank of J over the field, exact unless the prime divides a minor.
+/// Returns the rank of J over the field. It is exact unless the prime divides a minor.
 ///
 /// # Complexity
-/// O(f·d³w³) field operations for f columns, d = 6 rows per contour and fronts of at most w contours: linear in the
-/// number of contours k for chains, trees and grids of bounded width, where w is bounded. The order of the contours
-/// costs O(k·w·k/64) operations on words besides. Never more than O(w) times the dense elimination.
+/// O(f·d³w³) field operations for f columns, d = 6 rows per contour and fronts of at most w contours. This is linear in
+/// the number of contours k for chains, trees and grids of bounded width, for which w is bounded. The order of the
+/// contours costs another O(k·w·k/64) operations on words. The total is never more than O(w) times the dense
+/// elimination.
 #[must_use]
 pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let plan = EliminationPlan::new(closure);
@@ -45,16 +48,16 @@ pub fn rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     work.rank
 }
 
-/// What a front leaves: columns on the rows of the contour's neighbours, ascending.
+/// Remainder of a front: columns on the rows of the contour's neighbours, ascending.
 #[derive(Clone, Copy, Default)]
 struct Rest {
-    /// The first row of this contour in the present front, while it is part of it.
+    /// The first row of this contour in the current front, while it is part of it.
     slot: usize,
-    /// Where they begin and end in `Work::left`.
+    /// Start and end of the columns in `Work::left`.
     columns: (usize, usize),
-    /// Another rest that goes to the same contour's front.
+    /// Another remainder that goes to the front of the same contour.
     sibling: Option<usize>,
-    /// The first rest that this contour's front takes in.
+    /// The first remainder that the front of this contour takes in.
     child: Option<usize>,
 }
 
@@ -62,15 +65,15 @@ struct Work<'a> {
     field: Field,
     plan: &'a EliminationPlan,
     rest: Vec<Rest>,
-    /// The columns of all rests.
+    /// The columns of all remainders.
     left: Vec<Residue>,
-    /// The columns of the present front, one after the other.
+    /// The columns of the current front, one after the other.
     front: Vec<Residue>,
     rank: usize,
 }
 
 impl Work<'_> {
-    /// Forms the front of a contour, takes out the pivots of its rows, and passes on what is left.
+    /// Forms the front of a contour, eliminates the pivots of its rows, and passes on the remainder.
     fn eliminate(&mut self, closure: &Closure<Residue>, c: usize) {
         let (plan, dim) = (self.plan, closure.dim);
         self.rest[c].slot = 0;
@@ -100,7 +103,7 @@ impl Work<'_> {
         // Columns with entries in this contour only, then those shared with others.
         for own in [true, false] {
             for j in joints().filter(|&j| (plan.passes(j).len() == 1) == own) {
-                // The front of the first of its contours in the order takes a joint.
+                // A joint enters the front of the first of its contours in the order.
                 let first = |&(i, _): &(usize, bool)| plan.place[i] >= plan.place[c];
                 if plan.passes(j).is_empty() || !plan.passes(j).iter().all(first) {
                     continue;
@@ -171,7 +174,7 @@ fn pivots(field: Field, columns: &mut [Residue], height: usize, rows: usize) -> 
         let ones = u[..rows].iter().position(|&x| x == one);
         if let Some(p) = ones.or_else(|| u[..rows].iter().position(|&x| x != 0)) {
             found += 1;
-            // Columns of this contour alone are the commonest, and end with its rows.
+            // Columns of this contour only are the most common, and end with its rows.
             let end = u.iter().rposition(|&x| x != 0).map_or(0, |e| e + 1);
             for v in later.chunks_exact_mut(height) {
                 combine(field, v, &u[..end], p);
@@ -183,7 +186,7 @@ fn pivots(field: Field, columns: &mut [Residue], height: usize, rows: usize) -> 
     found
 }
 
-/// Clears entry `p` of `v` by the column `u`, which has zeros from its length on.
+/// Clears entry `p` of `v` with the column `u`, which is zero beyond its length.
 #[inline]
 fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
     let (a, b) = (v[p], u[p]);
@@ -209,7 +212,7 @@ fn combine(field: Field, v: &mut [Residue], u: &[Residue], p: usize) {
     }
 }
 
-/// A basis of the span of columns of equal height.
+/// Returns a basis of the span of columns of equal height.
 fn independent(field: Field, columns: &mut [Residue], height: usize) -> Vec<Residue> {
     let mut basis = Vec::with_capacity(height * height);
     let mut rest = columns;

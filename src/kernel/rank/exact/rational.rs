@@ -1,4 +1,4 @@
-//! Rank by elimination in rational arithmetic: slow, plain, and independent of every prime.
+//! Rank by elimination in rational arithmetic: slow, simple, and independent of every prime.
 
 use num_rational::BigRational;
 use num_traits::Zero;
@@ -9,7 +9,7 @@ use crate::rank::exact::certificate::{matrix, number_field};
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
 use crate::verify::matrix::MatrixOverRing;
 
-/// Rank of a matrix of rational numbers; `None` where an entry is not rational.
+/// Returns the rank of a matrix of rational numbers, or `None` if an entry is not rational.
 ///
 /// Rows are sparse. Each pivot is the shortest number in the row with the fewest entries.
 ///

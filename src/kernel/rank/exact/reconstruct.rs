@@ -10,12 +10,13 @@ use num_traits::{One, Signed, Zero};
 
 use crate::linalg::modp::{Field, Residue};
 
-/// Bits by which a fraction has to be shorter than the modulus: one residue in 2^24 has such a fraction by chance.
+/// Number of bits by which a fraction must be shorter than the modulus. One residue in 2^24 has such a fraction by
+/// chance.
 const SPARE_BITS: u64 = 24;
 
-/// The fraction n/d ≡ x modulo m with |n| and d at most sqrt(m/2), which is unique where it exists.
+/// Returns the fraction n/d ≡ x modulo m with |n| and d at most sqrt(m/2), which is unique if it exists.
 ///
-/// Half of Euclid's algorithm on m and x: O(log² m) bit operations.
+/// Runs half of Euclid's algorithm on m and x, in O(log² m) bit operations.
 #[must_use]
 pub(crate) fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
     let bound = (m / 2u32).sqrt();
@@ -30,7 +31,7 @@ pub(crate) fn rational(x: &BigInt, m: &BigInt) -> Option<BigRational> {
     if t1.is_zero() || t1.abs() > bound || !r1.gcd(&t1).is_one() {
         return None;
     }
-    // In lowest terms; the sign is the numerator's.
+    // The fraction is in lowest terms, with the sign in the numerator.
     Some(if t1.is_negative() {
         BigRational::new_raw(-r1, -t1)
     } else {
@@ -55,23 +56,23 @@ impl Default for Modulus {
 }
 
 impl Modulus {
-    /// Number of primes. O(1).
+    /// Returns the number of primes. O(1).
     #[must_use]
     pub(crate) fn primes(&self) -> usize {
         self.primes
     }
 
-    /// Takes one more prime, after all unknowns have seen it. O(primes).
+    /// Adds one more prime, after all unknowns have seen it. O(primes).
     pub(crate) fn extend(&mut self, field: Field) {
         self.product *= field.modulus();
         self.primes += 1;
     }
 }
 
-/// A rational number of which residues come in.
+/// A rational number to be reconstructed from its residues.
 #[derive(Debug, Clone)]
 pub(crate) enum Unknown {
-    /// A fraction that all residues so far agree with.
+    /// A fraction that agrees with all residues so far.
     Settled(BigRational),
     /// The residue modulo the product of the primes so far.
     Open(BigInt),
@@ -84,8 +85,9 @@ impl Default for Unknown {
 }
 
 impl Unknown {
-    /// Takes the residue modulo one more prime; false where it contradicts the fraction settled on. `inverse` is that of
-    /// the product of the primes before, in the field. O(primes) where open, O(size of the fraction) where settled.
+    /// Adds the residue modulo one more prime. Returns false if it contradicts the settled fraction. `inverse` is the
+    /// inverse of the product of the earlier primes, in the field. O(primes) if open, O(size of the fraction) if
+    /// settled.
     pub(crate) fn see(
         &mut self,
         field: Field,
@@ -103,7 +105,7 @@ impl Unknown {
         }
         let before = match std::mem::take(self) {
             Unknown::Settled(q) => {
-                // Its denominator was invertible modulo every prime so far.
+                // The denominator was invertible modulo every prime so far.
                 let m = &modulus.product;
                 let inverse = q.denom().modinv(m).unwrap_or_default();
                 (q.numer() * inverse).mod_floor(m)
@@ -115,10 +117,10 @@ impl Unknown {
         false
     }
 
-    /// Settles on a fraction where there is one so short that chance would not have produced it; how it went.
+    /// Settles on a fraction if there is one too short to arise by chance, and returns the outcome.
     ///
-    /// `denominator` is tried first, and becomes a multiple of the one found: the numbers of a vector mostly share one,
-    /// and a product is much cheaper than Euclid's algorithm. O(primes²) where open.
+    /// `denominator` is tried first, and becomes a multiple of the one found. The numbers of a vector mostly share one,
+    /// and a product is much cheaper than Euclid's algorithm. O(primes²) if open.
     pub(crate) fn settle(&mut self, modulus: &Modulus, denominator: &mut BigInt) -> Settled {
         let Unknown::Open(x) = self else {
             return Settled::Before;
@@ -144,20 +146,20 @@ impl Unknown {
     }
 }
 
-/// How an attempt to settle on a fraction went.
+/// Outcome of an attempt to settle on a fraction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Settled {
-    /// There was one already.
+    /// The number was settled before.
     Before,
-    /// By the denominator at hand.
+    /// The given denominator was enough.
     Cheaply,
-    /// By Euclid's algorithm.
+    /// Euclid's algorithm found the fraction.
     Newly,
-    /// It is too long yet.
+    /// The fraction is still too long.
     NotYet,
 }
 
-/// The inverse of the product of the primes so far, in a field of another prime. O(primes).
+/// Returns the inverse of the product of the primes so far, in the field of another prime. O(primes).
 #[must_use]
 pub(crate) fn inverse_of(modulus: &Modulus, field: Field) -> Option<Residue> {
     let residue = field.from_bigint(&modulus.product);

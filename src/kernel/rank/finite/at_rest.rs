@@ -1,9 +1,11 @@
-//! Freedoms that rest at first order, held, so that what moves is seen to be a planar, spherical or other simple mechanism.
+//! Locks freedoms at rest to first order, so that the moving rest is recognised as a planar, spherical or other simple
+//! mechanism.
 //!
-//! A freedom whose speed is 0 in every instantaneous motion takes no part in any: with it locked the null space of J is as
-//! large as before. What then moves for certain moves in the whole mechanism, too, of which it is a part; and nothing moves
-//! more than instantaneously. So the finite mobility of a pose is proven where it is that of the mechanism with such freedoms
-//! locked: the spatial slider of a planar linkage that could turn about its guide, and does not.
+//! A freedom with speed 0 in every instantaneous motion takes no part in any of them. If it is locked, the null space
+//! of J is as large as before. A proven motion of the locked mechanism is also a motion of the whole mechanism, and no
+//! motion exceeds the instantaneous mobility. So the finite mobility of a pose is proven if it is that of the mechanism
+//! with such freedoms locked. An example is the spatial slider of a planar linkage that could turn about its guide, but
+//! does not.
 
 use crate::closure::Closure;
 use crate::geom::exact::ExactField;
@@ -12,7 +14,8 @@ use crate::linalg::modp::Residue;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::Mechanism;
 
-/// The mechanism with every freedom locked that rests in all instantaneous motions; none where there is none to lock.
+/// Returns the mechanism with every freedom locked that is at rest in all instantaneous motions, or `None` if there are
+/// none.
 ///
 /// # Complexity
 /// One elimination of J by rows, O((6k)² f).
@@ -28,7 +31,7 @@ pub(crate) fn lock_resting(
         let row: Vec<Residue> = columns.iter().map(|c| c[r]).collect();
         rows.insert(&row);
     }
-    // A row of the reduced form with its pivot alone says that this freedom has speed 0.
+    // A row of the reduced form with no entry other than its pivot means that this freedom has speed 0.
     let rests = |row: &Vec<Residue>| row.iter().filter(|&&x| x != 0).count() == 1;
     let resting: Vec<usize> = rows
         .reduced()

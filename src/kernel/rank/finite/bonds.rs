@@ -1,16 +1,18 @@
-//! Chains and parallel legs put together as groups of displacements, as far as that goes.
+//! Reduction of chains and parallel legs to groups of displacements, as far as possible.
 //!
-//! A chain of joints between two links lets them move in a product of one-parameter groups. Where the twists of neighbours in
-//! it span a subalgebra, the product is, near this pose, the whole group of that algebra: its derivative has that rank. So
-//! they are one joint, with as many freedoms as the group has dimensions, and what they have beyond that moves inside the
-//! chain. Two such joints side by side let the links move in the common part of their groups, again a group. Both steps are
-//! exact, so that a mechanism that comes down to single joints has a manifold of closed poses whose dimension is counted on
-//! the way: Sarrus' linkage is two planes that have a direction in common [Hervé 1978, "mechanical bonds"].
+//! A chain of joints between two links lets them move in a product of one-parameter groups. If the twists of
+//! neighbouring joints span a subalgebra, the product is, near this pose, the whole group of that algebra, because its
+//! derivative has that rank. So the joints are equivalent to one joint with as many freedoms as the group has
+//! dimensions. Any further freedoms move inside the chain.
 //!
-//! Two equal bars side by side on parallel hinges let the links they join move on a circle without turning: no group, but within
-//! that of the slides in a plane, and a leg with such slides is a group again. And where no instantaneous motion uses more of a
-//! group than a subgroup, it is held to that: legs of a robot that turns about z alone may be able to turn otherwise, and do not.
-//! What then moves is a lower bound.
+//! Two such joints in parallel let the links move in the intersection of their groups, which is again a group. Both
+//! steps are exact. So a mechanism that reduces to single joints has a manifold of closed poses, and the reduction
+//! counts its dimension. Sarrus' linkage is two planes with a direction in common [Hervé 1978, "mechanical bonds"].
+//!
+//! Two equal parallel bars on parallel hinges let the links they join move on a circle without turning. This is not a
+//! group, but it lies within the group of the slides in a plane, and a leg with such slides is a group again. If no
+//! instantaneous motion uses more of a group than a subgroup, the group is restricted to it. For example, legs of a
+//! robot that only turns about z may be able to turn otherwise, but do not. The mobility found is then a lower bound.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -25,17 +27,17 @@ mod parallelogram;
 
 type Twist = Vec<Residue>;
 
-/// What passes for a joint: a manifold of displacements.
+/// An equivalent joint: a manifold of displacements.
 #[derive(Debug, Clone)]
 struct BondPart {
-    /// Its twists in this pose, a basis.
+    /// A basis of its twists in this pose.
     span: Vec<Twist>,
-    /// A basis of the algebra of a group that holds all its displacements.
+    /// A basis of the algebra of a group that contains all its displacements.
     within: Vec<Twist>,
 }
 
 impl BondPart {
-    /// All displacements of a group.
+    /// Creates a part with all displacements of a group.
     fn group(basis: Vec<Twist>) -> BondPart {
         BondPart {
             span: basis.clone(),
@@ -67,10 +69,11 @@ impl Chain {
     }
 }
 
-/// The finite mobility of the joints of a closure by groups alone; none where they do not come down to single joints.
+/// Returns the finite mobility of the joints of a closure by groups only, or `None` if they do not reduce to single
+/// joints.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// O(p²) products of algebras for p freedoms.
@@ -79,7 +82,7 @@ pub fn mobility(
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
 ) -> Result<Option<usize>, ExactError> {
-    // In a plane contours need no more than their own three rows.
+    // In a plane, contours need only their own three rows.
     if matches!(mechanism.mode, Mode::Planar { .. }) || !closure.couplings.is_empty() {
         return Ok(None);
     }
@@ -118,12 +121,12 @@ pub fn mobility(
 struct Bonds<'a> {
     exact: &'a ExactField,
     chains: Vec<Chain>,
-    /// What moves inside what was put together.
+    /// Mobility inside the merged parts.
     mobility: usize,
 }
 
 impl Bonds<'_> {
-    /// Two chains that meet at a link with no others become one; a chain that ends loosely moves as it likes.
+    /// Joins two chains that meet at a link with no other chain. A chain with a free end moves freely.
     fn join(&mut self, links: &[LinkId]) -> bool {
         for &link in links {
             let at: Vec<usize> = (0..self.chains.len())
@@ -155,7 +158,8 @@ impl Bonds<'_> {
         false
     }
 
-    /// Neighbours whose twists span a subalgebra become one group; round a closed chain the last is the first's neighbour.
+    /// Merges neighbours whose twists span a subalgebra into one group. In a closed chain the last part is a neighbour
+    /// of the first.
     fn merge(&mut self) -> bool {
         for c in 0..self.chains.len() {
             let chain = &self.chains[c];
@@ -183,7 +187,8 @@ impl Bonds<'_> {
         false
     }
 
-    /// A closed chain of two groups moves in what they have in common, one of a single group not at all.
+    /// Closes a chain on itself. A closed chain of two groups moves in their intersection; one of a single group does
+    /// not move.
     fn close(&mut self) -> bool {
         let Some(c) = self.chains.iter().position(|c| {
             c.is_closed() && c.parts.len() <= 2 && c.parts.iter().all(BondPart::is_group)
@@ -197,7 +202,7 @@ impl Bonds<'_> {
         true
     }
 
-    /// Two single groups between the same links let them move in what they have in common.
+    /// Replaces two single groups between the same links by their intersection.
     fn side_by_side(&mut self) -> bool {
         let single = |c: &Chain| {
             c.parts.len() <= 1 && !c.is_closed() && c.parts.iter().all(BondPart::is_group)
@@ -221,7 +226,8 @@ impl Bonds<'_> {
         false
     }
 
-    /// The algebra that some parts span together, where that is one and holds all they do.
+    /// Returns the algebra that some parts span together, if the span is an algebra and contains all their
+    /// displacements.
     fn spanned(&self, parts: &[BondPart]) -> Option<Vec<Twist>> {
         let mut span = Echelon::new(self.exact.field());
         let mut basis: Vec<&Twist> = Vec::new();
@@ -235,7 +241,7 @@ impl Bonds<'_> {
         group.then(|| basis.into_iter().cloned().collect())
     }
 
-    /// Whether some independent twists span an algebra.
+    /// Returns true if some independent twists span an algebra.
     fn is_algebra(&self, basis: &[&Twist]) -> bool {
         let mut span = Echelon::new(self.exact.field());
         basis.iter().all(|t| span.insert(t))
@@ -246,7 +252,7 @@ impl Bonds<'_> {
     }
 }
 
-/// A basis of the common part of two spans, each given by independent vectors.
+/// Returns a basis of the intersection of two spans, each given by independent vectors.
 pub(in crate::rank) fn common(exact: &ExactField, a: &[Twist], b: &[Twist]) -> Vec<Twist> {
     let field = exact.field();
     let both: Vec<Twist> = a.iter().chain(b).cloned().collect();
@@ -271,7 +277,8 @@ mod tests {
     use crate::model::mechanism::StateId;
     use crate::rank::exact::field::field_of;
 
-    /// Three bodies on one axis, each two joined by two hinges: two turn against the first, whichever link a hinge names first.
+    /// Three bodies on one axis, each pair joined by two hinges: two bodies turn against the first, whichever link a
+    /// hinge names first.
     #[test]
     fn hinges_side_by_side_are_one_whichever_link_they_name_first() {
         for turned in 0..8 {

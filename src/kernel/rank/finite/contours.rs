@@ -1,8 +1,8 @@
-//! Contours judged one by one.
+//! Contours analysed one by one.
 //!
-//! Where the closed poses of a contour alone are a manifold of as many dimensions as move at first order, they are, among all
-//! coordinates, one of as many dimensions fewer as the contour's rank. Manifolds whose ranks add up to that of J meet
-//! transversally, so that the poses that close all contours are a manifold, too, of dimension f - rank J.
+//! Suppose the closed poses of a single contour form a manifold with as many dimensions as move at first order. Among
+//! all coordinates its codimension is then the rank of the contour. Manifolds whose ranks add up to that of J meet
+//! transversally. So the poses that close all contours also form a manifold, of dimension f - rank J.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -14,13 +14,14 @@ use crate::rank::finite::independent_parts::alone;
 use crate::rank::finite::never_stopped::Expanded;
 use crate::rank::finite::regular::regular;
 
-/// Whether every contour alone is at a regular pose of its motion, and none holds what others hold.
+/// Returns true if every contour on its own is at a regular pose of its motion, and no contour duplicates constraints
+/// of others.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// Proofs for as many contours as there are, where their ranks add up to that of J.
+/// One proof per contour, if their ranks add up to that of J.
 pub(super) fn are_apart(
     exact: &ExactField,
     mechanism: &Mechanism,

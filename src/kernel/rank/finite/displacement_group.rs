@@ -1,11 +1,13 @@
-//! The group of displacements each contour moves in, and when it proves that a motion is really there.
+//! The group of displacements of each contour, and when it proves a finite motion.
 //!
-//! The displacement round a contour is a product of its joints' displacements, so it stays in the group whose Lie algebra
-//! the joints' twists generate under the bracket: 1 dimension for coaxial hinges, 3 for a planar or spherical contour,
-//! 4 for a Schoenflies one, 6 in general [Hervé 1978]. Closing all contours is a map into the product of these groups.
-//! Where J has the full rank of that product, the map is a submersion and the closed poses near this one form a
-//! manifold of dimension f - rank J: the instantaneous mobility is then the finite one, proven, whatever σ is. Couplings
-//! are linear maps of the joints' coordinates besides, and add the rank of their own rows to the product.
+//! The displacement around a contour is a product of its joints' displacements. So it stays in the group whose Lie
+//! algebra the joints' twists generate under the bracket. This group has 1 dimension for coaxial hinges, 3 for a planar
+//! or spherical contour, 4 for a Schoenflies one, and 6 in general [Hervé 1978]. Closing all contours is a map into the
+//! product of these groups.
+//!
+//! If J has the full rank of that product, the map is a submersion. The closed poses near this one then form a manifold
+//! of dimension f - rank J. So the instantaneous mobility is proven to be the finite one, for any σ. Couplings are
+//! additional linear maps of the joints' coordinates, and the rank of their rows is added to the product.
 
 use crate::closure::contour::Contour;
 use crate::closure::twist::FrameValues;
@@ -16,7 +18,7 @@ use crate::linalg::echelon::{Echelon, rank, relations};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 
-/// The bracket of two twists, [ω1 × ω2; ω1 × v2 + v1 × ω2].
+/// Returns the bracket of two twists, [ω1 × ω2; ω1 × v2 + v1 × ω2].
 pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
     let three = |t: &[Residue], at: usize| [t[at], t[at + 1], t[at + 2]];
     let (wa, va, wb, vb) = (three(a, 0), three(a, 3), three(b, 0), three(b, 3));
@@ -27,7 +29,7 @@ pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue])
     vec![w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
-/// Whether the displacements of some independent twists, one after the other, are all those of a group.
+/// Returns true if the successive displacements of some independent twists are all those of a group.
 pub(in crate::rank) fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> bool {
     let mut span = Echelon::new(exact.field());
     twists.iter().all(|t| span.insert(t))
@@ -38,7 +40,7 @@ pub(in crate::rank) fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> 
         })
 }
 
-/// Six-component twists of a joint's freedoms, those that planar mode keeps.
+/// Returns the six-component twists of a joint's freedoms, restricted to those that planar mode keeps.
 pub(in crate::rank) fn spatial_twists(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -54,10 +56,10 @@ pub(in crate::rank) fn spatial_twists(
         .collect())
 }
 
-/// Dimension of the group a contour's displacements generate. In planar mode at most 3.
+/// Returns the dimension of the group that a contour's displacements generate. It is at most 3 in planar mode.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// At most 15 brackets of at most 6 independent twists.
@@ -67,7 +69,7 @@ pub(crate) fn group_dimension(
     contour: &Contour,
 ) -> Result<usize, ExactError> {
     if let Mode::Planar { normal } = &mechanism.mode {
-        // Three rows: turning about the normal and sliding across it. Two slides alone commute.
+        // There are three rows: turning about the normal and sliding across it. Slides commute with each other.
         let space = crate::closure::twist::MotionSpace::new(
             exact,
             &Mode::Planar {
@@ -85,7 +87,8 @@ pub(crate) fn group_dimension(
                 algebra.insert(&t);
             }
         }
-        // The bracket of two turns about different points is a slide, of a turn and a slide the slide across it.
+        // The bracket of two turns about different points is a slide. The bracket of a turn and a slide is the
+        // perpendicular slide.
         return Ok(match (turning, algebra.rank()) {
             (true, r) if r > 1 => 3,
             (_, r) => r,
@@ -94,7 +97,7 @@ pub(crate) fn group_dimension(
     Ok(algebra(exact, mechanism, contour.joints.iter().map(|&(j, _)| j))?.len())
 }
 
-/// Rank of the rows of the couplings alone.
+/// Returns the rank of the rows of the couplings only.
 pub(in crate::rank) fn coupling_rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
     let rows: Vec<Vec<Residue>> = closure
         .couplings
@@ -110,7 +113,7 @@ pub(in crate::rank) fn coupling_rank(exact: &ExactField, closure: &Closure<Resid
     rank(exact.field(), rows.iter().map(Vec::as_slice))
 }
 
-/// A basis of the Lie algebra that the twists of some joints generate.
+/// Returns a basis of the Lie algebra that the twists of some joints generate.
 fn algebra(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -141,12 +144,12 @@ fn algebra(
     Ok(basis)
 }
 
-/// What kind of displacements a group holds.
+/// Kind of a displacement group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GroupKind {
     /// Nothing, or slides only.
     Translation,
-    /// Turns about one axis, and slides along it at most.
+    /// Turns about one axis, possibly with slides along it.
     Rotation,
     /// Turns about one direction and slides across it.
     Planar,
@@ -154,26 +157,26 @@ pub enum GroupKind {
     Spherical,
     /// Turns about one direction and every slide.
     Schoenflies,
-    /// Anything else; all displacements where the dimension is 6.
+    /// Anything else; all displacements if the dimension is 6.
     Other,
 }
 
-/// The group that all joints of a state move in together.
+/// The group in which all joints of a state move together.
 #[derive(Debug, Clone)]
 pub struct DisplacementGroup {
     dimension: usize,
     turns: usize,
     slides: usize,
     across: bool,
-    /// Whether what turns slides along its axis by the same motion.
+    /// Whether each turn is coupled to a slide along its axis.
     screws: bool,
-    /// Components of a twist that tell all the others: pivots of the algebra.
+    /// Components of a twist that determine the others: pivots of the algebra.
     pivots: Vec<usize>,
 }
 
 impl DisplacementGroup {
-    /// J with one row per dimension of the group and contour: the other components of its twists are combinations of
-    /// these, the same for every column, so the rank is the same.
+    /// Returns J with one row per dimension of the group and contour. The other components of its twists are
+    /// combinations of these, the same for every column, so the rank is unchanged.
     #[must_use]
     pub fn rows_of(&self, closure: &Closure<Residue>) -> Closure<Residue> {
         Closure {
@@ -190,13 +193,13 @@ impl DisplacementGroup {
         }
     }
 
-    /// Its dimension, at most 6.
+    /// Returns the dimension, at most 6.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
-    /// Its kind.
+    /// Returns the kind.
     #[must_use]
     pub fn kind(&self) -> GroupKind {
         match (self.turns, self.slides) {
@@ -209,7 +212,7 @@ impl DisplacementGroup {
         }
     }
 
-    /// Its name with its dimension, for people.
+    /// Returns the name with the dimension, for display.
     #[must_use]
     pub fn name(&self) -> String {
         match self.kind() {
@@ -234,11 +237,11 @@ impl DisplacementGroup {
     }
 }
 
-/// The group generated by all joints of a state together: with fewer than 6 dimensions, that many rows per contour are
-/// enough.
+/// Returns the group generated by all joints of a state together. If it has fewer than 6 dimensions, that many rows per
+/// contour are enough.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub fn whole_group(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -257,10 +260,10 @@ pub fn whole_group(
     group_of(exact, mechanism, mechanism.joints_in(state))
 }
 
-/// The group generated by some joints together, in space.
+/// Returns the group generated by some joints together, in space.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub(in crate::rank) fn group_of(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -292,7 +295,8 @@ pub(in crate::rank) fn group_of(
         .map_or([0; 3], |t| [t[0], t[1], t[2]]);
     let whole = Echelon::of(field, &basis);
     let across = slides.iter().all(|&v| exact.dot(v, axis) == 0);
-    // Slides across the axis change nothing of what a turn slides along it; a slide along it makes any turn of the screw.
+    // Slides across the axis do not affect the slide coupled to a turn. An independent slide along the axis allows a
+    // turn with any pitch.
     let along = |t: &Vec<Residue>| exact.dot([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
     let screws = turns.rank() == 1 && across && basis.iter().any(|t| along(t) != 0);
     Ok(DisplacementGroup {

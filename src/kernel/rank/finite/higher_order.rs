@@ -1,14 +1,18 @@
 //! Exact analysis of higher order: power series of the closed poses near a pose, modulo a prime.
 //!
-//! The contours are products of exponentials, so their power series are exact in the field. Solved order by order for the
-//! coordinates that J determines, they leave as many equations g(x) = 0 in the free coordinates x as J has dependent rows:
-//! the closed poses near this one are the zeros of g [Lyapunov-Schmidt reduction; for mechanisms: Lerbet 1999; Müller 2016,
-//! "Higher-order analysis of kinematic singularities"]. Where the powers of degree d of the variables of a random subspace of
-//! m dimensions all lie in the ideal of g's series (a rank, of the Macaulay matrix up to degree d), the pose is isolated
-//! there, even with complex coordinates, and no motion through it has more than n - m dimensions [Bates, Hauenstein,
-//! Peterson & Sommese 2009, "A numerical local dimension test"; Dayton & Zeng 2005]. A nonzero minor modulo the prime is a
-//! nonzero minor, so both are proven where J has its true rank modulo the prime. With m = n nothing moves: for n = 1 that is
-//! shakiness of order d - 1, for d = 2 the second-order test of Connelly & Whiteley 1996.
+//! The contours are products of exponentials, so their power series are exact in the field. They are solved order by
+//! order for the coordinates that J determines. As many equations g(x) = 0 in the free coordinates x remain as J has
+//! dependent rows. The closed poses near this one are the zeros of g [Lyapunov-Schmidt reduction; for mechanisms:
+//! Lerbet 1999; Müller 2016, "Higher-order analysis of kinematic singularities"].
+//!
+//! Take the powers of degree d of the variables of a random subspace of m dimensions. If they all lie in the ideal of
+//! g's series (a rank, of the Macaulay matrix up to degree d), the pose is isolated there, even with complex
+//! coordinates. Then no motion through it has more than n - m dimensions [Bates, Hauenstein, Peterson & Sommese 2009,
+//! "A numerical local dimension test"; Dayton & Zeng 2005].
+//!
+//! A nonzero minor modulo the prime is a nonzero minor, so both are proven if J has its true rank modulo the prime.
+//! With m = n nothing moves. For n = 1 that is shakiness of order d - 1, for d = 2 the second-order test of Connelly &
+//! Whiteley 1996.
 
 mod gap;
 mod line;
@@ -26,16 +30,16 @@ use crate::rank::finite::higher_order::gap::gaps;
 use crate::rank::finite::higher_order::line::Solved;
 use crate::rank::finite::power_series::{Monomials, accumulate};
 
-/// Entries of J² up to which series are asked at all.
+/// Number of entries of J² up to which series are used.
 const LARGEST: usize = 40_000;
-/// Products of numbers that one question may cost.
+/// Maximum number of products per query.
 const WORK: usize = 6_000_000;
-/// Order up to which one motion is expanded where no bound says how far to go.
+/// Order up to which one motion is expanded if no bound is known.
 pub(crate) const ORDER: usize = 64;
 /// Degree up to which series of several variables are expanded.
 const DEGREE: usize = 16;
 
-/// A mechanism's contours in an exact field, solved for the coordinates that J determines.
+/// The contours of a mechanism in an exact field, solved for the coordinates that J determines.
 #[derive(Debug)]
 pub struct HigherOrder {
     field: Field,
@@ -52,10 +56,10 @@ pub struct HigherOrder {
 }
 
 impl HigherOrder {
-    /// Prepares a mechanism whose J has this rank; none where it is too large.
+    /// Prepares a mechanism whose J has this rank. Returns `None` if it is too large.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
     /// O((6k)² f).
@@ -99,8 +103,8 @@ impl HigherOrder {
         }))
     }
 
-    /// The degree d at which the pose is seen to be isolated in a random subspace of `m` dimensions of its instantaneous
-    /// motions; none where that is not so up to a degree that the work allows.
+    /// Returns the degree d that proves the pose isolated in a random subspace of `m` dimensions of its instantaneous
+    /// motions. Returns `None` if no degree within the work limit does.
     ///
     /// # Complexity
     /// At most `WORK` products and as many again for the Macaulay matrices.
@@ -151,34 +155,34 @@ impl HigherOrder {
         None
     }
 
-    /// One motion alone, in a random direction, to an order that several together cannot be expanded to.
+    /// Expands one motion in a random direction, to a higher order than is possible for several together.
     #[must_use]
     pub fn line(&self, order: usize) -> Line {
         let speeds: Vec<Residue> = self.subspace(1).iter().map(|q| q[1]).collect();
         line::line(&self.solved(), &speeds, None, order).0
     }
 
-    /// Returns a motion in the direction of these weights of the free coordinates, expanded to an order: what comes of it, and the
-    /// coordinates of all columns as series from t¹ on.
+    /// Expands a motion in the direction of these weights of the free coordinates, to an order. Returns the outcome,
+    /// and the coordinates of all columns as series from t¹ on.
     #[must_use]
     pub(crate) fn motion(&self, weights: &[Residue], order: usize) -> (Line, Vec<Vec<Residue>>) {
         line::line(&self.solved(), &self.speeds(weights), None, order)
     }
 
-    /// The same with free coordinates of these weights times t, and of further ones times t².
+    /// Expands a motion with free coordinates of these weights times t, and of further ones times t².
     #[must_use]
     pub(super) fn bent_line(&self, weights: &[Residue], bent: &[Residue], order: usize) -> Line {
         let [speeds, bent] = [weights, bent].map(|w| self.speeds(w));
         line::line(&self.solved(), &speeds, Some(&bent), order).0
     }
 
-    /// What the equations in the free coordinates are to second order at these weights.
+    /// Returns the equations in the free coordinates to second order at these weights.
     #[must_use]
     pub(super) fn second(&self, weights: &[Residue]) -> Vec<Residue> {
         line::second(&self.solved(), &self.speeds(weights))
     }
 
-    /// The field of its numbers, and how many free coordinates there are.
+    /// Returns the field and the number of free coordinates.
     pub(crate) fn free(&self) -> (Field, usize) {
         (self.field, self.free.len())
     }
@@ -193,7 +197,7 @@ impl HigherOrder {
         }
     }
 
-    /// Coordinates to first order where the free ones have these weights.
+    /// Returns the coordinates to first order, if the free ones have these weights.
     fn speeds(&self, weights: &[Residue]) -> Vec<Residue> {
         let mut q = vec![0; self.twists.len()];
         for ((c, speeds), &x) in self.free.iter().zip(weights) {
@@ -205,11 +209,12 @@ impl HigherOrder {
         q
     }
 
-    /// Coordinates to first order in `m` variables that span a random subspace of the instantaneous motions.
+    /// Returns the coordinates to first order in `m` variables that span a random subspace of the instantaneous
+    /// motions.
     fn subspace(&self, m: usize) -> Vec<Vec<Residue>> {
         let mut random = 0x9e37_79b9_7f4a_7c15_u64;
         let mut any = || {
-            // xorshift64*: any numbers will do that the geometry does not know.
+            // xorshift64*: any numbers unrelated to the geometry are enough.
             random ^= random >> 12;
             random ^= random << 25;
             random ^= random >> 27;
@@ -229,13 +234,13 @@ impl HigherOrder {
     }
 }
 
-/// A twist of a motion space with all its six components.
+/// Converts a twist of a motion space to all six components.
 fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue]) -> Vec<Residue> {
     let field = exact.field();
     match space {
         MotionSpace::Spatial => twist.to_vec(),
         MotionSpace::Planar { axes } => {
-            // Components are scalar products with axes that are square, not of unit length.
+            // Components are scalar products with orthogonal axes, which are not of unit length.
             let along = |k: usize| {
                 let axis = axes[k];
                 let share = field.mul(twist[k], field.inv(exact.dot(axis, axis)));
@@ -248,7 +253,7 @@ fn in_space(exact: &ExactField, space: &MotionSpace<Residue>, twist: &[Residue])
     }
 }
 
-/// The contours as columns with their directions, within a joint in the order of the poses.
+/// Returns the contours as columns with their directions, within a joint in the order of the poses.
 fn walks(closure: &Closure<Residue>, pose: &Pose) -> Vec<Vec<(usize, bool)>> {
     let order = |c: usize| {
         let column = &closure.columns[c];
@@ -272,7 +277,7 @@ fn walks(closure: &Closure<Residue>, pose: &Pose) -> Vec<Vec<(usize, bool)>> {
     walks.collect()
 }
 
-/// [J | 1].
+/// Returns [J | 1].
 fn beside_unit(
     field: Field,
     closure: &Closure<Residue>,
@@ -300,7 +305,8 @@ fn beside_unit(
     matrix
 }
 
-/// Reduced row echelon form in place, by the first `width` columns; the pivots' columns, whose rows come first.
+/// Brings a matrix to reduced row echelon form in place, by its first `width` columns. Returns the pivot columns, whose
+/// rows come first.
 fn reduce(field: Field, matrix: &mut [Vec<Residue>], width: usize) -> Vec<usize> {
     let mut pivots = Vec::new();
     for c in 0..width {

@@ -1,16 +1,18 @@
-//! Ways in which a link is free at all its joints, though these are no groups, split off.
+//! Idle motions of links that are free at all their joints, even if the joints are not groups.
 //!
-//! A joint's displacement from a neighbour to a link is a product of those of its freedoms, the last of them next to the link.
-//! Let the last ones, C, commute with a twist t, and some before them, G, be all of a group that has t: then the products P G C
-//! are the same as P G C exp(at), since exp(at) passes through C and goes into G. So the joint lets the link move by exp(at) while all
-//! else stands still, in any of its poses. Where all joints of a link let it, exp(at) acts freely on the closed poses. Near
-//! the pose of the file each orbit of it has one pose with a freedom of G held at one of the joints, if that freedom has a
-//! share in t: G is such displacements times exp(at). So the closed poses there are those of the mechanism with that freedom
-//! locked, times a line, and finite mobility is one more than of that mechanism, exactly; nothing is taken to rest because
-//! it rests at first order.
+//! A joint's displacement from a neighbour to a link is a product of the displacements of its freedoms, the last of
+//! them next to the link. Let the last ones, C, commute with a twist t, and let some before them, G, be all of a group
+//! that contains t. Then the products P G C are the same as P G C exp(at), because exp(at) passes through C and is
+//! absorbed by G. So the joint lets the link move by exp(at) while everything else is at rest, in any of its poses.
 //!
-//! A round part on flat faces slides along itself whatever the faces do: to turn, to slide along and to slide across is the
-//! group of the face, next to it; to roll, next to the part, commutes with the slide.
+//! If all joints of a link allow this, exp(at) acts freely on the closed poses. Take a freedom of G at one of the
+//! joints that has a share in t: G consists of displacements with this freedom held, times exp(at). So near the pose of
+//! the file, each orbit has exactly one pose with that freedom held. The closed poses there are those of the mechanism
+//! with that freedom locked, times a line. The finite mobility is therefore exactly one more than that of the locked
+//! mechanism. No freedom is assumed to be at rest because it is at rest to first order.
+//!
+//! A round part on flat faces slides along itself for any motion of the faces. Turning, sliding along and sliding
+//! across form the group of the face, next to it. Rolling, next to the part, commutes with the slide.
 
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
@@ -21,13 +23,13 @@ use crate::rank::finite::displacement_group::{bracket, is_group, spatial_twists}
 
 type Twist = Vec<Residue>;
 
-/// Locks a freedom for each way in which a link is free at all its joints; how many there were.
+/// Locks one freedom for each idle motion of a link that is free at all its joints. Returns how many were locked.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// O(f p) products of algebras a way, for links of p joints with f freedoms.
+/// O(f p) products of algebras per idle motion, for links of p joints with f freedoms.
 pub(super) fn lock_ways(
     exact: &ExactField,
     mechanism: &mut Mechanism,
@@ -43,7 +45,8 @@ pub(super) fn lock_ways(
     Ok(locked)
 }
 
-/// A joint of a link and what it keeps when it holds the link in a way in which all its joints leave it free.
+/// Returns a joint of a link, and the freedoms it keeps if it blocks an idle motion of the link that all its joints
+/// allow.
 fn way(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -72,7 +75,7 @@ fn way(
             for held in freedoms {
                 let kept = |f: &Freedom| f != held;
                 let left: Vec<Freedom> = before.freedoms().iter().copied().filter(kept).collect();
-                // What is left must be passed in the order it had.
+                // The remaining freedoms must keep their order.
                 let passed = before.passed().into_iter().filter(kept);
                 if passed.eq(JointType::Custom(left.clone()).passed()) {
                     return Ok(Some((j, left)));
@@ -83,7 +86,7 @@ fn way(
     Ok(None)
 }
 
-/// The freedoms of a joint from a link outwards.
+/// Returns the freedoms of a joint from a link outwards.
 fn outward(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -104,8 +107,8 @@ fn outward(
     Ok(passed)
 }
 
-/// The freedoms that have a share in a twist, of a group that has it behind nothing but what commutes with it; none where there
-/// is no such group.
+/// Returns the freedoms with a share in a twist, of a group that contains it and is followed only by freedoms that
+/// commute with it. Returns nothing if there is no such group.
 fn sharing(exact: &ExactField, outward: &[(Freedom, Twist)], t: &Twist) -> Vec<Freedom> {
     let commutes = |(_, s): &&(Freedom, Twist)| bracket(exact, s, t).iter().all(|&x| x == 0);
     let commuting = outward.iter().take_while(commutes).count();

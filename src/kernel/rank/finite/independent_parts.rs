@@ -1,12 +1,12 @@
-//! Independent parts of a mechanism, and idle turns split off, so that each can be judged for itself.
+//! Independent parts of a mechanism, and removal of idle rotations, so that each part can be analysed on its own.
 //!
-//! Joints that share no contour and no coupling, directly or through others, do not see each other: the closed poses of the
-//! mechanism are the product of those of its parts, and finite mobilities add up. With a cycle basis these parts are the
-//! biconnected components of the link graph [Whitney 1932], tied together by couplings.
+//! Joints that share no contour and no coupling, directly or through others, do not interact. The closed poses of the
+//! mechanism are the product of those of its parts, and finite mobilities add up. With a cycle basis these parts are
+//! the biconnected components of the link graph [Whitney 1932], joined by couplings.
 //!
-//! Within a part, a link whose joints all leave it free to turn (or slide) in one common group H can do so whatever the rest
-//! does: H acts freely on the closed poses, which are H times those with as many freedoms locked at one of the joints
-//! [Hervé 1978]. So the spin of a rod between two balls is a finite motion, proven.
+//! Within a part, consider a link whose joints all leave it free to turn (or slide) in one common group H. It can do so
+//! for any motion of the rest. H acts freely on the closed poses, which are H times those with as many freedoms locked
+//! at one of the joints [Hervé 1978]. So the spin of a rod between two balls is proven to be a finite motion.
 
 use crate::closure::Closure;
 use crate::closure::tree::tied;
@@ -19,7 +19,7 @@ use crate::rank::finite::bonds::common;
 use crate::rank::finite::displacement_group::{is_group, spatial_twists};
 use crate::rank::finite::idle_ways::lock_ways;
 
-/// The joints of each part, in file order; joints in no contour and no coupling are in none.
+/// Returns the joints of each part, in file order. Joints in no contour and no coupling belong to no part.
 ///
 /// # Complexity
 /// O(n log n) for contours of n joints in all.
@@ -38,7 +38,7 @@ pub(crate) fn parts<T>(closure: &Closure<T>) -> Vec<Vec<JointId>> {
     tied(of_contours.chain(of_couplings))
 }
 
-/// A mechanism of some of the joints alone, numbered as before; its frame is one of their links.
+/// Returns a mechanism with only some of the joints, numbered as before. Its frame is one of their links.
 #[must_use]
 pub(crate) fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
     let mut out = mechanism.clone();
@@ -62,16 +62,17 @@ pub(crate) fn alone(mechanism: &Mechanism, joints: &[JointId]) -> Mechanism {
     out
 }
 
-/// Locks the idle freedoms of links whose joints all leave them free in one group, or one way; how many there were.
+/// Locks the idle freedoms of links whose joints all leave them free in one group, or in one direction. Returns how
+/// many were locked.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub fn lock_idle(
     exact: &ExactField,
     mechanism: &mut Mechanism,
     state: StateId,
 ) -> Result<usize, ExactError> {
-    // In a plane a ball is a pin, whose axis is not its own.
+    // In a plane, a ball is a pin whose axis is the normal of the plane.
     if matches!(mechanism.mode, Mode::Planar { .. }) {
         return Ok(0);
     }
@@ -108,7 +109,7 @@ pub fn lock_idle(
         if shared.is_empty() {
             continue;
         }
-        // Freedoms of the first joint that complete the common group to all of its own.
+        // Freedoms of the first joint that extend the common group to all of its own freedoms.
         let mut span = Echelon::of(exact.field(), &shared);
         let joint = &mut mechanism.joints[at[0]];
         let kept = joint.joint_type.freedoms().iter().zip(first);

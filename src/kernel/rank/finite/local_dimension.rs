@@ -1,14 +1,14 @@
-//! Finite mobility by going there: the dimension of the set of closed poses round a pose, numerically.
+//! Finite mobility by following the motion: the numerical dimension of the set of closed poses around a pose.
 //!
-//! At a regular pose every instantaneous motion extends: a step along it closes with corrections across it alone, and so
-//! at a distance at which shaky poses gape clearly. At a singular pose the set of closed poses is, near by, a cone over its
-//! section with a small sphere [Milnor 1968]. So branches are sought where the sphere is met: starts come from the tangent
-//! cone (`tangent_cone`), and a closed pose on a sphere counts only if it can be followed from sphere to sphere, in
-//! to the pose and out again. What closes near by may be shaky all the same, the gap being a high power of the way; so a motion
-//! counts only where it goes on much farther (`continuation`). The largest dimension of the branches, each examined in the same way at its far end, is the
-//! local one [Wampler, Hauenstein & Sommese 2011].
+//! At a regular pose every instantaneous motion extends. A step along it closes with only transverse corrections, even at a distance at
+//! which shaky poses have clear gaps. At a singular pose the set of closed poses is locally a cone over its section with a small sphere
+//! [Milnor 1968]. So branches are sought on the sphere. Starts come from the tangent cone (`tangent_cone`). A closed pose on a sphere
+//! counts only if it can be followed from sphere to sphere, inwards to the pose and outwards again.
 //!
-//! Numeric: nothing is proven, and the certainty says so. Random directions come from a fixed seed.
+//! A pose that closes nearby may still be shaky if the gap is a high power of the path length. So a motion counts only if it continues
+//! much farther (`continuation`). Each branch is examined in the same way at its far end. The largest dimension of the branches is the
+//! local dimension [Wampler, Hauenstein & Sommese 2011]. The result is numeric and is marked as such: nothing is proven. Random
+//! directions come from a fixed seed.
 
 mod continuation;
 
@@ -22,37 +22,37 @@ use ozols_dense::{Matrix, least_squares, svd};
 const STEPS: [f64; 3] = [0.2, 0.08, 0.03];
 /// Spheres from which branches are followed.
 const SPHERES: [f64; 3] = [0.1, 0.03, 0.25];
-/// From one sphere to the next.
+/// Ratio of one sphere's radius to the previous one.
 const INWARD: f64 = 0.7;
-/// The innermost and the outermost sphere.
+/// Radii of the innermost and the outermost sphere.
 const FOLLOWED: std::ops::Range<f64> = 0.012..0.3;
-/// Branches followed from one singular pose.
+/// Number of branches followed from one singular pose.
 const BRANCHES: usize = 12;
-/// Displacements with a smaller share in a direction do not span it.
+/// Minimum share of a displacement in a direction for it to span that direction.
 const SPAN: f64 = 0.1;
-/// How often a singular pose may lead to further singular poses.
+/// Depth to which singular poses may lead to further singular poses.
 const DEPTH: usize = 2;
-/// Newton steps before a pose is given up.
+/// Maximum number of Newton steps per pose.
 const NEWTON: usize = 50;
 
-/// What following the motion found.
+/// Result of following the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Traced {
     /// The largest dimension of a motion through poses at or next to the pose.
     pub mobility: usize,
     /// The largest dimension that is not excluded.
     pub at_most: usize,
-    /// Poses closed on the way.
+    /// Number of poses closed.
     pub poses: usize,
-    /// Whether the pose itself is a regular one.
+    /// Whether the pose itself is regular.
     pub regular: bool,
 }
 
-/// The dimension of the closed poses at and near `pose`, none where a budget of closed poses runs out. `motions` is the
-/// instantaneous mobility; `shaky` says that some of it is infinitesimal only.
+/// Returns the dimension of the closed poses at and near `pose`, or `None` if the budget of closures runs out. `motions` is the
+/// instantaneous mobility. `shaky` means that some of it is only infinitesimal.
 ///
 /// # Complexity
-/// About W closings of O((6k)² f) each at a regular pose, and some hundred at a singular one.
+/// About W closures of O((6k)² f) each at a regular pose, and a few hundred at a singular one.
 #[must_use]
 pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Option<Traced> {
     let mut search = DimensionSearch {
@@ -69,13 +69,13 @@ pub fn mobility(pose: &Pose, motions: usize, shaky: bool, budget: usize) -> Opti
     })
 }
 
-/// Null space of J at a pose: `f - rank` orthonormal columns.
+/// Returns the null space of J at a pose: `f - rank` orthonormal columns.
 #[must_use]
 pub fn motions(pose: &Pose) -> Matrix {
     Flat::new(pose, None).kernel
 }
 
-/// A combination of columns.
+/// Returns a linear combination of columns.
 fn along(span: &Matrix, weights: &[f64]) -> Vec<f64> {
     let row = |r: usize| {
         weights
@@ -113,7 +113,7 @@ impl DimensionsFound {
     }
 }
 
-/// Equations beside those of the contours: their values and rows at some coordinates.
+/// Additional equations next to those of the contours: their values and rows at some coordinates.
 type Beside<'a> = &'a dyn Fn(&[f64]) -> Vec<(f64, Vec<f64>)>;
 
 struct DimensionSearch {
@@ -123,16 +123,16 @@ struct DimensionSearch {
 }
 
 impl DimensionSearch {
-    /// A random unit vector.
+    /// Returns a random unit vector.
     fn direction(&mut self, n: usize) -> Vec<f64> {
-        // A sum of twelve uniform numbers is near enough to normal, the same on every machine.
+        // A sum of twelve uniform numbers is close enough to normal, and the same on every machine.
         let mut uniform = || f64::from(self.random.next_u32()) / f64::from(u32::MAX) - 0.5;
         let v: Vec<f64> = (0..n).map(|_| (0..12).map(|_| uniform()).sum()).collect();
         let size = norm(&v).max(1e-9);
         v.into_iter().map(|x| x / size).collect()
     }
 
-    /// Coordinates near `q` that fulfil all equations best, with the gap that is left; none where the budget is spent.
+    /// Returns coordinates near `q` that satisfy all equations best, with the remaining gap. Returns `None` if the budget is spent.
     fn close(
         &mut self,
         pose: &Pose,
@@ -194,8 +194,8 @@ impl DimensionSearch {
         Some(best)
     }
 
-    /// Whether motions in random directions of some orthonormal columns extend to a distance: `None` where that is not
-    /// clear. With `apart` each of them has to go on, as next to a pose at which something is stopped.
+    /// Returns whether motions in random directions of some orthonormal columns extend to a distance, or `None` if that is unclear. With
+    /// `apart`, each of them has to continue, as required next to a pose where some motion is stopped.
     fn smooth(
         &mut self,
         pose: &Pose,
@@ -227,11 +227,11 @@ impl DimensionSearch {
                 }
             }
             if all {
-                // A gap this small at the longer step vanishes at the shorter one by a high order alone.
+                // A gap this small at the longer step can vanish at the shorter one only by a high order.
                 if open.is_some_and(|gap| gap <= 1e5 * pose.closed()) {
                     return Some(Some(false));
                 }
-                // Near by, what is stopped by a high order closes, too.
+                // Nearby, motions that are stopped by a high order close, too.
                 return Some(self.all_go_on(pose, span, apart)?.then_some(true));
             }
         }
@@ -241,7 +241,7 @@ impl DimensionSearch {
         )
     }
 
-    /// A closed pose at a distance from this one, near to `q`.
+    /// Returns a closed pose at a distance from this one, near `q`.
     fn on_sphere(&mut self, pose: &Pose, q: &[f64], radius: f64) -> Option<Option<Vec<f64>>> {
         let size = norm(q).max(1e-300);
         let start = q.iter().map(|x| x * radius / size).collect();
@@ -253,13 +253,13 @@ impl DimensionSearch {
         Some((gap < pose.closed()).then_some(q))
     }
 
-    /// The branch that begins in a direction, where there is one.
+    /// Returns the branch that begins in a direction, if there is one.
     fn branch(&mut self, pose: &Pose, direction: &[f64], scale: f64) -> Option<Option<Branch>> {
         for radius in SPHERES.map(|s| s * scale) {
             let Some(first) = self.on_sphere(pose, direction, radius)? else {
                 continue;
             };
-            // In to the pose: the same branch on every sphere.
+            // The branch must be the same on every sphere inwards to the pose.
             let (mut near, mut r, mut joined) = (first.clone(), radius, true);
             while r * INWARD > FOLLOWED.start * scale {
                 r *= INWARD;
@@ -287,7 +287,7 @@ impl DimensionSearch {
         Some(None)
     }
 
-    /// Dimensions at a pose; `shaky` where it is known that not all instantaneous motions extend.
+    /// Returns the dimensions at a pose. `shaky` means that not all instantaneous motions are known to extend.
     fn dimension(
         &mut self,
         pose: &Pose,
@@ -314,7 +314,7 @@ impl DimensionSearch {
                 None => return Some(DimensionsFound::between(0, n)),
             }
         }
-        // Not everything extends, so at most a hypersurface does.
+        // Not every motion extends, so at most a hypersurface does.
         let at_most = n - 1;
         if n == 1 {
             return Some(DimensionsFound::exactly(0, false));
@@ -343,7 +343,7 @@ impl DimensionSearch {
         Some(DimensionsFound::between(from, to))
     }
 
-    /// The largest dimension found along branches in some directions, as far as the budget goes.
+    /// Returns the largest dimension found along branches in some directions, as far as the budget allows.
     fn along_branches(
         &mut self,
         pose: &Pose,
@@ -365,7 +365,7 @@ impl DimensionSearch {
                 found => found,
             };
             let Some(Some(branch)) = found else { continue };
-            // A curve through the pose is a motion, if it goes on.
+            // A curve through the pose is a motion if it continues.
             if best == 0 {
                 if self.goes_on(pose, &branch.far, &branch.onward(), 1) != Some(true) {
                     continue;
@@ -385,7 +385,7 @@ impl DimensionSearch {
         if same.is_empty() || best + 1 == n {
             return best;
         }
-        // Nothing changes along the motion: J is short of rank all along it, and the displacements tell its dimension.
+        // J is rank-deficient all along the motion, and the displacements determine its dimension.
         let part = Matrix::from_fn(pose.columns.len(), same.len(), |r, c| {
             same[c].near[r] / norm(&same[c].near).max(1e-300)
         });
@@ -408,21 +408,21 @@ impl DimensionSearch {
     }
 }
 
-/// A curve of closed poses from a pose: coordinates close to it and far from it.
+/// A curve of closed poses from a pose: coordinates close to the pose and far from it.
 struct Branch {
     near: Vec<f64>,
     far: Vec<f64>,
 }
 
 impl Branch {
-    /// The way from the one to the other.
+    /// Returns the direction from the near coordinates to the far ones.
     fn onward(&self) -> Vec<f64> {
         let both = self.far.iter().zip(&self.near);
         both.map(|(f, n)| f - n).collect()
     }
 }
 
-/// Whether two coordinates lie in nearly the same direction.
+/// Returns true if two coordinates lie in nearly the same direction.
 fn alike(a: &[f64], b: &[f64]) -> bool {
     let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     dot > 0.9 * norm(a) * norm(b)

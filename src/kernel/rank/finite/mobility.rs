@@ -1,72 +1,72 @@
-//! A finite mobility, and how it is known.
+//! A finite mobility and the evidence for it.
 
-/// What proves a pose to be a regular one of its motion; of several, the one that asks for most comes last.
+/// Proof that a pose is a regular one of its motion. If several apply, the one with the most conditions comes last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Proof {
     /// J has the full rank of the groups its contours move in and of its couplings.
     Groups,
-    /// So it has with the freedoms locked that rest at first order, [`crate::rank::finite::at_rest`].
+    /// J has that rank with the freedoms locked that are at rest to first order, [`crate::rank::finite::at_rest`].
     Resting,
-    /// Chains and legs come down to single joints, [`crate::rank::finite::bonds`].
+    /// Chains and legs reduce to single joints, [`crate::rank::finite::bonds`].
     Bonds,
-    /// What moves is not stopped up to the order beyond which nothing can stop it.
+    /// No motion is stopped up to the highest order that could stop it.
     Multiplicity,
-    /// So it is for each contour alone, and together they hold as much as one after the other.
+    /// Each contour on its own is proven regular, and the ranks of the contours add up.
     Contours,
 }
 
-/// Why a finite mobility is what it is.
+/// Evidence for a finite mobility.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
     /// Nothing moves even instantaneously.
     Rigid,
     /// The motion is a manifold of all that moves instantaneously: the pose is a regular one. Proven.
     Submersion {
-        /// The rank that was asked for.
+        /// The required rank.
         dimension: usize,
-        /// What proves it.
+        /// The proof.
         by: Proof,
     },
     /// Instantaneous motions are stopped by second or higher order: a shaky pose. Proven.
     Stopped {
         /// The order that stops the last of them.
         order: usize,
-        /// How many instantaneous motions are none.
+        /// Number of instantaneous motions that are not finite.
         motions: usize,
     },
-    /// Motions of this dimension pass through a singular pose, and none of more. Proven.
+    /// Motions of this dimension, and none of a larger one, pass through a singular pose. Proven.
     Singular {
-        /// The order that tells.
+        /// The order that decides it.
         order: usize,
     },
     /// Followed by Newton's method; numeric.
     Traced {
-        /// Poses closed.
+        /// Number of poses closed.
         poses: usize,
         /// Whether the pose of the file is a regular one of its motion.
         regular: bool,
     },
-    /// Neither proof nor pursuit decides.
+    /// Neither proof nor numerical following decides.
     Undecided {
         /// The largest dimension of a motion that was found.
         from: usize,
         /// The largest dimension that is not excluded.
         to: usize,
     },
-    /// Coordinates are rounded too coarsely to tell a motion from a shaky pose, or to tell the rank of J.
+    /// Coordinates are rounded too coarsely to distinguish a motion from a shaky pose, or to determine the rank of J.
     Rounded {
-        /// The most that it can be.
+        /// Upper bound of the mobility.
         to: usize,
     },
-    /// Not followed, for it is too large.
+    /// Not followed, because the mechanism is too large.
     Bound {
-        /// The most that it can be: what moves instantaneously.
+        /// Upper bound of the mobility: the instantaneous mobility.
         to: usize,
     },
 }
 
 impl Proof {
-    /// Why a pose is a regular one, whose J has a rank of that `dimension`.
+    /// Explains why a pose is regular, whose J has rank `dimension`.
     fn why(self, dimension: usize) -> String {
         match self {
             Proof::Groups => {
@@ -90,11 +90,11 @@ impl Proof {
 /// The finite mobility of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Finite {
-    /// Dimension of the motion; the least it can be where that is undecided, what moves for certain.
+    /// Dimension of the motion. If undecided, its lower bound: the motion that certainly exists.
     pub mobility: usize,
-    /// How it is known.
+    /// The evidence.
     pub how: How,
-    /// Whether the rank of J that it starts from is a numeric one.
+    /// Whether the rank of J that it is based on is numeric.
     pub numeric: bool,
 }
 
@@ -107,18 +107,18 @@ impl Finite {
         }
     }
 
-    /// Where rounded coordinates tell no more than that at most `to` moves instantaneously.
+    /// Creates the result for rounded coordinates that only give an upper bound `to` on the instantaneous mobility.
     pub(in crate::rank) fn rounded(to: usize) -> Finite {
         Finite::new(0, How::Rounded { to })
     }
 
-    /// Whether it is a range.
+    /// Returns true if the mobility is a range.
     #[must_use]
     pub fn is_undecided(&self) -> bool {
         self.at_most() > self.mobility
     }
 
-    /// The same with a rank that is a numeric one.
+    /// Returns the same mobility, based on a numeric rank.
     #[must_use]
     pub(crate) fn by_numeric_rank(self) -> Finite {
         Finite {
@@ -127,7 +127,7 @@ impl Finite {
         }
     }
 
-    /// Whether it follows from exact arithmetic alone.
+    /// Returns true if it follows from exact arithmetic only.
     #[must_use]
     pub fn is_proven(&self) -> bool {
         !self.numeric
@@ -137,7 +137,7 @@ impl Finite {
             )
     }
 
-    /// The most it can be.
+    /// Returns the upper bound.
     #[must_use]
     pub fn at_most(&self) -> usize {
         match self.how {
@@ -146,7 +146,7 @@ impl Finite {
         }
     }
 
-    /// Whether it can be this much.
+    /// Returns true if the mobility can have this value.
     #[must_use]
     pub fn could_be(&self, mobility: i64) -> bool {
         let least = i64::try_from(self.mobility).unwrap_or(i64::MAX);
@@ -154,7 +154,7 @@ impl Finite {
         (least..=most).contains(&mobility)
     }
 
-    /// The figure for people: a number, or a range where that is undecided.
+    /// Returns the figure for display: a number, or a range if undecided.
     #[must_use]
     pub fn figure(&self) -> String {
         match self.at_most() {
@@ -163,7 +163,7 @@ impl Finite {
         }
     }
 
-    /// One line for people.
+    /// Describes the result in one line for display.
     #[must_use]
     pub fn describe(&self) -> String {
         let line = match self.how {
@@ -219,7 +219,7 @@ impl Finite {
         }
     }
 
-    /// One word for programs.
+    /// Returns one word for programs.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self.how {
@@ -240,7 +240,7 @@ impl Finite {
         }
     }
 
-    /// The finite mobility of two independent parts, or of a part and its idle freedoms.
+    /// Adds the finite mobility of an independent part, or of the idle freedoms of a part.
     pub(super) fn and(self, other: Finite) -> Finite {
         use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
         let from = self.mobility + other.mobility;

@@ -1,17 +1,21 @@
-//! Motions proven by the order up to which nothing stops them.
+//! Motions proven by an order up to which nothing stops them.
 //!
-//! A closed pose with no others near is a solution of polynomial equations, and has a multiplicity of at most what Bézout's theorem
-//! allows. That multiplicity is the order that stops a motion in a general direction, or more. So what is not stopped up to that
-//! order is never stopped, and every instantaneous motion is one. Coefficients are known modulo a prime above 2^61: one that is 0
-//! there is 0 but for a chance of some 10^-18. All bundles here are globally generated, so that what else solves the equations
-//! does not count [Fulton 1984, "Intersection Theory", theorem 12.3].
+//! A closed pose with no others near it is a solution of polynomial equations, and Bézout's theorem bounds its
+//! multiplicity. That multiplicity is at least the order that stops a motion in a general direction. So a motion that
+//! is not stopped up to that order is never stopped, and every instantaneous motion is finite.
 //!
-//! With t = tan θ/2 of each hinge, and each slide as it is, the displacement along an arc is a dual quaternion linear in every t,
-//! and a contour, cut into two arcs, is closed where those of the arcs are proportional, A(s) μ = B(t) λ: equations of one line
-//! bundle over s, t and (λ : μ). With S and T the sums of the classes of the t of either arc, r + 1 of them meet in the class
-//! Σ S^i T^j over i + j = r; no t can be taken twice. Of every contour as many equations are taken as it adds to the rank, which
-//! leaves a curve once further freedoms are cut off; any other equation vanishes on it or has, at the pose, a zero of an order of at
-//! most what it and those taken allow. That is 4 for Bennett's linkage and 36 for six hinges.
+//! Coefficients are known modulo a prime above 2^61. A coefficient that is 0 there is 0 except with a chance of about
+//! 10^-18. All bundles here are globally generated, so that other solutions of the equations do not count [Fulton 1984,
+//! "Intersection Theory", theorem 12.3].
+//!
+//! With t = tan θ/2 for each hinge, and each slide unchanged, the displacement along an arc is a dual quaternion linear
+//! in every t. A contour, cut into two arcs, is closed if those of the arcs are proportional, A(s) μ = B(t) λ. These
+//! are equations of one line bundle over s, t and (λ : μ). With S and T the sums of the classes of the t of either arc,
+//! r + 1 of them meet in the class Σ S^i T^j over i + j = r. No t can be used twice.
+//!
+//! From every contour, as many equations are taken as it adds to the rank. This leaves a curve once further freedoms
+//! are cut off. Any other equation either vanishes on the curve or has a zero at the pose. The order of that zero is at
+//! most what this equation and those taken allow. That is 4 for Bennett's linkage and 36 for six hinges.
 
 mod intersection;
 mod rods;
@@ -26,16 +30,16 @@ use crate::model::mechanism::Mechanism;
 use crate::rank::finite::displacement_group::group_dimension;
 use intersection::{Arcs, Class};
 
-/// Orders of the contours that are tried.
+/// Number of contour orders tried.
 const ORDERS: usize = 6;
 
-/// The order beyond which nothing stops a motion; none where that is not known.
+/// Returns the highest order that can stop a motion, or `None` if it is unknown.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
-/// Some eliminations of J, and products of classes with as many terms as sets of freedoms are open at a time.
+/// A few eliminations of J, and products of classes with as many terms as sets of freedoms are open at a time.
 pub(super) fn bound(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -52,7 +56,7 @@ pub(super) fn bound(
         return Ok(Some(order));
     }
     if let [alone] = &arcs[..] {
-        // All equations, also those that cut further freedoms off, are of the one bundle.
+        // All equations, including those that cut further freedoms off, belong to one bundle.
         let inside = alone.count() == freedoms;
         let class = inside.then(|| Class::one().times_all(alone, freedoms));
         return Ok(class.flatten().and_then(|c| c.number(freedoms, 0)));
@@ -80,7 +84,7 @@ pub(super) fn bound(
     Ok(least)
 }
 
-/// A contour's columns, cut into two arcs.
+/// Cuts a contour's columns into two arcs.
 fn arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
     let of = |joints: &[_]| {
         let here = |c: &usize| {
@@ -93,7 +97,7 @@ fn arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
     Arcs::new(of(one), of(other))
 }
 
-/// What each contour adds to the rank, taken in an order.
+/// Returns what each contour adds to the rank, in the given order.
 fn added_rank(
     exact: &ExactField,
     closure: &Closure<Residue>,
@@ -113,7 +117,8 @@ fn added_rank(
     added
 }
 
-/// The highest order that an equation can have which is not among those taken; `cut` freedoms are cut off by equations of all t.
+/// Returns the highest order of an equation that is not among those taken. `cut` freedoms are cut off by equations of
+/// all t.
 fn highest(
     arcs: &[Arcs],
     dimensions: &[usize],

@@ -1,4 +1,4 @@
-//! One motion expanded as far as something could stop it.
+//! One motion expanded up to the highest order that can stop it.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -8,16 +8,16 @@ use crate::motion::pose::Pose;
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
 use crate::rank::finite::multiplicity;
 
-/// The highest order that a motion is expanded to.
+/// Maximum order of the expansion of a motion.
 const HIGHEST: usize = 600;
 
 /// The power series of a pose, and one motion of it.
 pub(super) struct Expanded {
-    /// None where it is too large.
+    /// `None` if the mechanism is too large.
     pub(super) series: Option<HigherOrder>,
     /// A motion in a random direction.
     pub(super) line: Option<Line>,
-    /// The order beyond which nothing stops it.
+    /// The highest order that can stop it.
     bound: Option<usize>,
 }
 
@@ -42,7 +42,8 @@ impl Expanded {
         })
     }
 
-    /// Whether the motion goes on beyond all that could stop it, so that every instantaneous motion is one.
+    /// Returns true if the motion continues beyond every possible obstruction, so that every instantaneous motion is
+    /// finite.
     pub(super) fn is_never_stopped(&self) -> bool {
         matches!((self.line, self.bound), (Some(line), Some(bound)) if line.stopped.is_none() && line.order >= bound)
     }

@@ -8,17 +8,17 @@ use std::collections::BTreeMap;
 #[derive(Debug)]
 pub(in crate::rank) struct Monomials {
     variables: usize,
-    /// Exponents, a byte a variable; by degree.
+    /// Exponents, one byte per variable, sorted by degree.
     keys: Vec<u128>,
     index: BTreeMap<u128, usize>,
-    /// Where each degree begins, and the end.
+    /// Start of each degree, and the end.
     starts: Vec<usize>,
     /// For each pair whose product is kept, the index of the product: `products[i][j]`.
     products: Vec<Vec<usize>>,
 }
 
 impl Monomials {
-    /// Degrees 0 and 1 of at most 16 variables.
+    /// Creates the monomials of degrees 0 and 1 in at most 16 variables.
     pub(in crate::rank) fn new(variables: usize) -> Monomials {
         let mut out = Monomials {
             variables,
@@ -35,7 +35,7 @@ impl Monomials {
     pub(in crate::rank) fn extend(&mut self, degree: usize) {
         let before = self.of_degree(degree - 1);
         for i in before {
-            // Each monomial once: by a variable no earlier than its last one.
+            // Each monomial arises once, by a variable no earlier than its last one.
             let key = self.keys[i];
             let last = (0..self.variables)
                 .rev()
@@ -84,8 +84,8 @@ impl Monomials {
         out
     }
 
-    /// Whether all monomials of the highest degree lie in the ideal of some series, up to higher degrees; none where that
-    /// is more than `work` products.
+    /// Returns whether all monomials of the highest degree lie in the ideal of some series, up to higher degrees.
+    /// Returns `None` if that takes more than `work` products.
     pub(in crate::rank) fn all_in_ideal(
         &self,
         f: Field,

@@ -1,4 +1,4 @@
-//! Poses that are regular ones of their motion, proven by ranks and groups: nothing is followed.
+//! Poses that are regular ones of their motion, proven by ranks and groups without following the motion.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -9,7 +9,7 @@ use crate::rank::finite::at_rest::lock_resting;
 use crate::rank::finite::mobility::{Finite, How, Proof};
 use crate::rank::finite::{bonds, displacement_group};
 
-/// What ranks alone prove: that nothing moves, or that all instantaneous motions are motions.
+/// Returns what ranks alone prove: that nothing moves, or that all instantaneous motions are finite.
 pub(super) fn by_ranks(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -28,13 +28,13 @@ pub(super) fn by_ranks(
     )))
 }
 
-/// Dimension of the groups that all contours move in, and of the couplings.
+/// Returns the dimension of the groups that all contours move in, and of the couplings.
 pub(super) fn dimension(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
 ) -> Result<usize, ExactError> {
-    // Couplings are linear in the joints' coordinates, so those that depend on others do so all along the motion.
+    // Couplings are linear in the joints' coordinates, so dependent ones stay dependent all along the motion.
     let mut dimension = displacement_group::coupling_rank(exact, closure);
     for contour in &closure.contours {
         dimension += displacement_group::group_dimension(exact, mechanism, contour)?;
@@ -42,7 +42,8 @@ pub(super) fn dimension(
     Ok(dimension)
 }
 
-/// As [`by_ranks`], also with what rests at first order locked, and with chains and legs taken for single joints.
+/// Works as [`by_ranks`], also with the freedoms locked that are at rest to first order, and with chains and legs
+/// reduced to single joints.
 pub(super) fn regular(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -74,7 +75,7 @@ pub(super) fn regular(
         }
         None => bonds::mobility(exact, mechanism, closure)?,
     };
-    // What moves with freedoms locked is a lower bound, and what moves instantaneously an upper one.
+    // The motion with freedoms locked is a lower bound, and the instantaneous motion an upper one.
     let (dimension, by) = (rank, Proof::Bonds);
     Ok(moving
         .filter(|&m| m == instantaneous)

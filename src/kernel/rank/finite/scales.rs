@@ -1,7 +1,8 @@
-//! Whether the lengths of a mechanism are of one order, so that doubles see all of it at once.
+//! Tests whether the lengths of a mechanism are of one order of magnitude, so that doubles resolve all of it at once.
 //!
-//! Poses are closed to a fraction of the mechanism's size, and singular values below another fraction are zero. What a link of
-//! a thousand-millionth of that size does is smaller than both: following the motion says nothing of it then.
+//! Poses are closed to a fraction of the mechanism's size, and singular values below another fraction are zero. The
+//! effect of a link of a thousand-millionth of that size is smaller than both. Following the motion gives no
+//! information about it.
 
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::{ExactError, ExactField};
@@ -12,14 +13,14 @@ use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 
-/// The smallest length that following sees, over the size of the mechanism.
+/// The smallest length that following resolves, relative to the size of the mechanism.
 const FINEST: f64 = 1e-5;
 
-/// Returns whether every link between turning joints, every pitch and every ratio of a slide to a turn is long enough to be seen
-/// beside the whole mechanism. What is exactly zero is no length.
+/// Returns true if every length is large enough to be resolved relative to the whole mechanism: links between turning
+/// joints, pitches, and ratios of a slide to a turn. Exact zeros do not count as lengths.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 pub(super) fn are_alike(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -51,7 +52,7 @@ pub(super) fn are_alike(
             }
             let (to, there) = (frames(b)?, residues(b)?);
             let apart = sub(to.point, frame.point);
-            // Where along parallel axes the points are does not matter.
+            // The position of the points along parallel axes does not matter.
             let distance = match separation(exact, &exactly, &there) {
                 Separation::None => continue,
                 Separation::OfParallelAxes => length(across(apart, unit(frame.axes[2]))),
@@ -72,7 +73,7 @@ pub(super) fn are_alike(
     }))
 }
 
-/// What is between two joints.
+/// Separation of two joints.
 enum Separation {
     /// One axis, or one point.
     None,
@@ -80,7 +81,7 @@ enum Separation {
     OfPoints,
 }
 
-/// Returns what is between two joints, by exact arithmetic: doubles do not tell a small length from none.
+/// Returns the separation of two joints, by exact arithmetic. Doubles cannot distinguish a small length from zero.
 fn separation(
     exact: &ExactField,
     a: &FrameValues<Residue>,

@@ -1,9 +1,9 @@
-//! What stops a motion to second order whatever the digits of the coordinates do.
+//! Second-order obstructions of a motion that hold for any rounding of the coordinates.
 //!
-//! At a pose whose J has the rank it is meant to have, a motion is stopped where self-stresses do work on its gaps of second order.
-//! That work changes with each coordinate: with the geometry itself, and with the motion and the self-stress that go with it, which
-//! perturbation theory gives to first order [Stewart & Sun, "Matrix Perturbation Theory", 1990]. The sum of these changes over half
-//! a unit of each coordinate bounds what rounding can have made of the work.
+//! At a pose whose J has its intended rank, a motion is stopped if self-stresses do work on its gaps of second order.
+//! That work changes with each coordinate, both directly and through the motion and the self-stress. Perturbation
+//! theory gives these changes to first order [Stewart & Sun, "Matrix Perturbation Theory", 1990]. The sum of the
+//! changes over half a unit of each coordinate bounds the effect of rounding on the work.
 
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::Reals;
@@ -15,31 +15,31 @@ use crate::rank::finite::tangent_cone::{Flat, Quadrics, form, norm, works};
 use crate::rank::rounded::size;
 use ozols_dense::{Matrix, Svd, svd};
 
-/// Steps of differences, in radians and fractions of the size.
+/// Step of finite differences, in radians and fractions of the size.
 const STEP: f64 = 1e-5;
-/// The changes to first order times this bound those to all orders.
+/// Factor by which first-order changes bound those of all orders.
 const SAFE: f64 = 1.5;
-/// Changes of J larger than this share of its smallest value that counts are not small.
+/// Changes of J above this share of its smallest nonzero singular value are not small.
 const SMALL: f64 = 0.1;
-/// Works below this are zero in doubles.
+/// Work below this counts as zero in doubles.
 const ZERO: f64 = 1e-11;
-/// Rounding alone makes a work larger by so many standard deviations once in ten thousand times.
+/// Number of standard deviations that rounding alone exceeds once in ten thousand times.
 const RARE: f64 = 4.0;
-/// Coordinates, pairs of motions and entries of J, up to which it is asked.
+/// Maximum product of coordinates, pairs of motions and entries of J.
 const LARGEST: usize = 400_000_000;
 
-/// How well the coordinates of a mechanism are known.
+/// Accuracy of the coordinates of a mechanism.
 #[derive(Debug, Clone)]
 pub(crate) struct Roundings {
     half: Uncertainties,
-    /// By how many half units coordinates may be off.
+    /// Number of half units by which coordinates may be off.
     times: f64,
-    /// A unit of the coarsest coordinate: radians, or a fraction of the size.
+    /// One unit of the coarsest coordinate: radians, or a fraction of the size.
     pub(super) unit: f64,
 }
 
 impl Roundings {
-    /// Of coordinates with half units, which may be off by so many of them.
+    /// Creates the accuracy from half units of the coordinates, which may be off by `times` of them.
     pub(crate) fn new(mechanism: &Mechanism, half: Uncertainties, times: f64) -> Roundings {
         let [length, direction] = half.largest(mechanism);
         Roundings {
@@ -49,10 +49,10 @@ impl Roundings {
         }
     }
 
-    /// How far each component of the point, the axis and the reference of a joint may be off, where it matters.
+    /// Returns how far each component of the point, the axis and the reference of a joint may be off, if it matters.
     fn of(&self, mechanism: &Mechanism, j: JointId) -> [[f64; 3]; 3] {
         let (at, joint_type) = (j.index(), &mechanism.joints[j].joint_type);
-        // In a plane, axes stay square to it.
+        // In a plane, axes stay perpendicular to it.
         let turned = matches!(mechanism.mode, Mode::Spatial);
         let off = |half: [f64; 3], matters: bool| {
             half.map(|h| if matters { self.times * h } else { 0.0 })
@@ -68,17 +68,18 @@ impl Roundings {
     }
 }
 
-/// The works of second order at a pose, and what rounding can make of them.
+/// The second-order work at a pose, and the possible effect of rounding on it.
 pub(super) struct SecondOrder {
     table: Matrix,
-    /// By how much half a unit of each coordinate changes the table.
+    /// Change of the table by half a unit of each coordinate.
     changes: Vec<Matrix>,
     quadrics: Quadrics,
     motions: usize,
 }
 
 impl SecondOrder {
-    /// Of a pose with so many instantaneous motions; none where it is too large, or J is too near to having more.
+    /// Creates the table of a pose with `motions` instantaneous motions. Returns `None` if it is too large, or if J is
+    /// too close to having more motions.
     ///
     /// # Complexity
     /// O(n²) matrices J for n motions and each coordinate.
@@ -112,7 +113,7 @@ impl SecondOrder {
             u: factors.v.clone(),
             v: factors.u.clone(),
         };
-        // The table where one joint is in another place, and by how much J is another there.
+        // The table with one joint displaced, and the change of J there.
         let table_at = |there: &Pose| {
             let mut change = there.jacobian(&vec![0.0; f]);
             change.add_multiple(-1.0, &here);
@@ -176,8 +177,8 @@ impl SecondOrder {
         })
     }
 
-    /// The most motions that are left, whatever the digits do: none where the works of a combination of self-stresses are definite,
-    /// one less where any is not zero.
+    /// Returns the maximum number of motions left for any rounding. It is 0 if the work of a combination of
+    /// self-stresses is definite, and one less if any work is nonzero.
     pub(super) fn at_most(&self) -> usize {
         let stresses = self.quadrics.stresses();
         let definite = self.quadrics.definite().filter(|(weights, least)| {
@@ -186,7 +187,7 @@ impl SecondOrder {
                 .collect();
             *least > SAFE * self.change(&stress)
         });
-        // A form is of size 1 as a row of the table.
+        // As a row of the table, a form has size 1.
         let is_there = |stress: &Vec<f64>| SAFE * self.change(stress) < 0.5;
         match definite {
             Some(_) if self.motions > 0 => 0,
@@ -194,7 +195,7 @@ impl SecondOrder {
         }
     }
 
-    /// What rounding can make of the form of a self-stress.
+    /// Returns the possible effect of rounding on the form of a self-stress.
     fn change(&self, stress: &[f64]) -> f64 {
         let one = |change: &Matrix| {
             let row = change.transpose_times(&Matrix::column(stress));
@@ -203,7 +204,7 @@ impl SecondOrder {
         self.changes.iter().map(one).sum()
     }
 
-    /// Whether all works are such as rounding makes of zero.
+    /// Returns true if rounding can explain all the work.
     pub(super) fn may_vanish(&self) -> bool {
         let Some(factors) = svd(&self.table) else {
             return false;
@@ -220,7 +221,7 @@ impl SecondOrder {
     }
 }
 
-/// The root of the sum of all squares.
+/// Returns the Frobenius norm.
 fn size_of(matrix: &Matrix) -> f64 {
     let columns = (0..matrix.ncols()).map(|c| norm(matrix.col(c)).powi(2));
     columns.sum::<f64>().sqrt()

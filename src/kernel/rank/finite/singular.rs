@@ -1,11 +1,13 @@
-//! Singular poses, proven: where nothing moves, where branches cross, and where one turns back in a cusp.
+//! Proofs for singular poses: poses without motion, crossings of branches, and cusps in which a branch turns back.
 //!
-//! What J leaves open are s equations g(x) = 0 in n free coordinates, as many as the groups of the contours have dimensions more
-//! than J has rank. To second order they are quadratic forms. Where a combination of them is definite nothing moves, as in a chain
-//! that is taut [Connelly & Whiteley 1996]. At a common zero of these where their gradients are independent
-//! a motion of n - s freedoms begins [Avakov 1985; Izmailov & Tretyakov 1994]. One equation alone has zeros of n - 1 dimensions
-//! as soon as it changes its sign, as it does along a line on which it begins with an odd power: that finds cusps. What
-//! stops motions of more freedoms are power series in a random subspace (`higher_order`).
+//! J leaves open s equations g(x) = 0 in n free coordinates. Their number s is the dimension of the groups of the
+//! contours less the rank of J. To second order they are quadratic forms. If a combination of them is definite, nothing
+//! moves, as in a taut chain [Connelly & Whiteley 1996]. At a common zero with independent gradients, a motion of n - s
+//! freedoms begins [Avakov 1985; Izmailov & Tretyakov 1994].
+//!
+//! A single equation has zeros of n - 1 dimensions as soon as it changes its sign. It does so along a line on which it
+//! begins with an odd power, which finds cusps. Motions of more freedoms are excluded by power series in a random
+//! subspace (`higher_order`).
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -18,11 +20,11 @@ use crate::rank::finite::mobility::{Finite, How};
 use crate::rank::finite::regular::dimension;
 use crate::rank::finite::tangent_cone::{Flat, Quadrics, directions, sparse};
 
-/// The mobility at a pose where not everything that moves at first order moves; none where this does not decide. `stopped` is the
-/// order that stops a motion in a random direction.
+/// Returns the mobility at a pose where not every first-order motion is finite, or `None` if this test does not decide.
+/// `stopped` is the order that stops a motion in a random direction.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// O(n²) expansions to second order, and one of a line.
@@ -60,8 +62,8 @@ pub(super) fn passed(
     Ok(if crossing { through(2) } else { None })
 }
 
-/// The order of the one equation along a line on which it has nothing of second order, bent where that takes away the fourth;
-/// none where there is no such line.
+/// Returns the order of the single equation along a line without second-order terms, bent to remove the fourth order if
+/// possible. Returns `None` if there is no such line.
 fn flat_line(series: &HigherOrder) -> Option<usize> {
     let (field, n) = series.free();
     let kernel = relations(field, &form(series)?);
@@ -79,7 +81,7 @@ fn flat_line(series: &HigherOrder) -> Option<usize> {
     if straight.stopped != Some(4) {
         return straight.stopped;
     }
-    // What the fourth order has is of second degree in a: c + b a + q a², a square where its discriminant is 0.
+    // The fourth order is of second degree in a: c + b a + q a², a square if its discriminant is 0.
     let fourth = |a: Residue| match along(a) {
         Line {
             stopped: Some(4),
@@ -98,7 +100,7 @@ fn flat_line(series: &HigherOrder) -> Option<usize> {
     bent.map_or(straight.stopped, |a| along(a).stopped)
 }
 
-/// Twice the matrix of the quadratic form of the one equation; none where it has nothing of second order.
+/// Returns twice the matrix of the quadratic form of the single equation, or `None` if it has no second-order terms.
 fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
     let (field, n) = series.free();
     let unit = |set: &[usize]| -> Vec<Residue> {
@@ -106,7 +108,7 @@ fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
         (0..n).map(one).collect()
     };
     let single: Vec<Vec<Residue>> = (0..n).map(|i| series.second(&unit(&[i]))).collect();
-    // One of each row that is left; all are multiples of one another.
+    // One form for each remaining row; all are multiples of one another.
     let mut forms = vec![vec![vec![0; n]; n]; single.first()?.len()];
     for i in 0..n {
         for j in 0..n {
@@ -125,12 +127,12 @@ fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
     forms.into_iter().find(some)
 }
 
-/// Numbers that the geometry does not know.
+/// Returns numbers unrelated to the geometry.
 fn any(field: Field, k: usize) -> Residue {
     field.from_i64(0x2545_f491_4f6c_dd1d_i64.wrapping_mul(2 * k as i64 + 1) >> 2)
 }
 
-/// Directions to look for zeros from: spread evenly by the plastic numbers of as many dimensions.
+/// Returns start directions for the search for zeros, spread evenly by the plastic numbers of that many dimensions.
 fn starts(n: usize) -> Vec<Vec<f64>> {
     let share = |i: usize, k: usize| {
         let step = 1.0 / 1.220_744_084_6_f64.powi(1 + i32::try_from(k).unwrap_or(0));

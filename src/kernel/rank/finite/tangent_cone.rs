@@ -1,8 +1,9 @@
-//! The tangent cone to second order: the instantaneous motions that every self-stress lets pass.
+//! The tangent cone to second order: the instantaneous motions that no self-stress obstructs.
 //!
-//! A motion that begins with speeds x, J x = 0, has accelerations only if each self-stress ω does no work on the gaps of
-//! second order: ω·q(x) = 0, quadratic forms in the weights of the motions [Connelly & Whiteley 1996; Müller 2016]. Their
-//! real zeros are found from many starts by damped Newton steps; a combination of the forms that is definite leaves none.
+//! A motion that begins with speeds x, J x = 0, has accelerations only if each self-stress ω does no work on the gaps
+//! of second order: ω·q(x) = 0. These are quadratic forms in the weights of the motions [Connelly & Whiteley 1996;
+//! Müller 2016]. Their real zeros are found from many starts by damped Newton steps. If a combination of the forms is
+//! definite, there are none.
 
 use crate::motion::pose::{FLAT, Pose};
 use ozols_dense::{Matrix, singular_values, solve, svd, symmetric_eigen};
@@ -10,24 +11,24 @@ use ozols_dense::{Matrix, singular_values, solve, svd, symmetric_eigen};
 /// Values of a form, relative to the largest coefficient, that count as zero.
 const ZERO: f64 = 1e-6;
 
-/// Gradients of forms of size 1 that are clearly not zero.
+/// Minimum gradient of forms of size 1 that is clearly nonzero.
 const CLEAR: f64 = 1e-2;
 
-/// Singular values in this range are too near to zero to be told from it.
+/// Singular values in this range are too close to zero to be distinguished from it.
 const UNCLEAR: std::ops::Range<f64> = 1e-9..1e-6;
 
 /// The flat directions of J at a pose.
 pub(in crate::rank) struct Flat {
-    /// Instantaneous motions, orthonormal columns.
+    /// Instantaneous motions as orthonormal columns.
     pub(in crate::rank) kernel: Matrix,
-    /// Self-stresses, orthonormal columns.
+    /// Self-stresses as orthonormal columns.
     pub(in crate::rank) stresses: Matrix,
-    /// Whether all singular values are clearly zero or clearly not.
+    /// Whether all singular values are either clearly zero or clearly nonzero.
     pub(in crate::rank) clear: bool,
 }
 
 impl Flat {
-    /// With `motions` columns where their number is known.
+    /// Computes the flat directions, with `motions` columns if their number is known.
     pub(in crate::rank) fn new(pose: &Pose, motions: Option<usize>) -> Flat {
         let (f, rows) = (pose.columns.len(), pose.rows());
         let Some(svd) = svd(&pose.jacobian(&vec![0.0; f])) else {
@@ -63,19 +64,19 @@ pub(in crate::rank) fn norm(x: &[f64]) -> f64 {
 pub(in crate::rank) struct Quadrics {
     /// Symmetric matrices, n × n.
     forms: Vec<Matrix>,
-    /// The self-stress that each is the work of.
+    /// The self-stress whose work each form is.
     stresses: Vec<Vec<f64>>,
     motions: usize,
 }
 
 impl Quadrics {
-    /// The forms of the self-stresses at a pose, the dependent ones left out.
+    /// Returns the independent forms of the self-stresses at a pose.
     pub(in crate::rank) fn new(pose: &Pose, flat: &Flat) -> Quadrics {
         let floor = ZERO.max(10.0 * pose.accuracy());
         Quadrics::of_table(&works(pose, flat), flat.kernel.ncols(), floor)
     }
 
-    /// The forms of a table of [`works`], those below a floor left out.
+    /// Returns the forms of a table of [`works`], without those below a floor.
     pub(in crate::rank) fn of_table(table: &Matrix, motions: usize, floor: f64) -> Quadrics {
         let (mut forms, mut stresses) = (Vec::new(), Vec::new());
         if let Some(svd) = svd(table) {
@@ -92,12 +93,12 @@ impl Quadrics {
         }
     }
 
-    /// The self-stresses whose works the forms are, as weights of the rows of the table.
+    /// Returns the self-stresses whose work the forms are, as weights of the rows of the table.
     pub(in crate::rank) fn stresses(&self) -> &[Vec<f64>] {
         &self.stresses
     }
 
-    /// Whether there is nothing of second order.
+    /// Returns true if there are no second-order terms.
     pub(in crate::rank) fn vanish(&self) -> bool {
         self.forms.is_empty()
     }
@@ -113,7 +114,7 @@ impl Quadrics {
         self.forms.iter().map(value).collect()
     }
 
-    /// The zero of all forms near a unit vector, if there is one.
+    /// Returns the zero of all forms near a unit vector, if there is one.
     fn zero_near(&self, mut x: Vec<f64>) -> Option<Vec<f64>> {
         let n = self.motions;
         for _ in 0..40 {
@@ -146,12 +147,12 @@ impl Quadrics {
         (norm(&self.values(&x)) < ZERO).then_some(x)
     }
 
-    /// Dimension that the cone can have at a zero: how many directions change no form.
+    /// Returns the dimension that the cone can have at a zero: the number of directions that change no form.
     fn nullity(&self, x: &[f64]) -> usize {
         self.nullity_above(x, 1e-3)
     }
 
-    /// How many directions change no form, gradients below `floor` being none.
+    /// Returns the number of directions that change no form, with gradients below `floor` treated as zero.
     fn nullity_above(&self, x: &[f64], floor: f64) -> usize {
         let n = self.motions;
         if self.forms.is_empty() {
@@ -163,26 +164,28 @@ impl Quadrics {
         n - values.iter().filter(|&&s| s > floor).count()
     }
 
-    /// Whether there are this many forms, and their gradients at one of the zeros are clearly independent. Then the exact forms
-    /// have a zero near by, where they are independent, too [Kantorovich: the gap there is below 1e-6, and 2e-3 would do], and a
-    /// motion of as many freedoms as are left begins in its direction [Avakov 1985; Izmailov & Tretyakov 1994, "2-regular"].
+    /// Returns true if there are this many forms, and their gradients at one of the zeros are clearly independent.
+    ///
+    /// Then the exact forms have a nearby zero, where they are also independent [Kantorovich: the gap there is below
+    /// 1e-6, and 2e-3 would be enough]. A motion of as many freedoms as are left begins in its direction [Avakov 1985;
+    /// Izmailov & Tretyakov 1994, "2-regular"].
     pub(in crate::rank) fn cross(&self, forms: usize, zeros: &[Vec<f64>]) -> bool {
         let independent = |x: &Vec<f64>| self.motions - self.nullity_above(x, CLEAR) == forms;
         self.forms.len() == forms && zeros.iter().any(independent)
     }
 
-    /// The largest dimension of the cone at the zeros found.
+    /// Returns the largest dimension of the cone at the zeros found.
     pub(in crate::rank) fn dimension(&self, zeros: &[Vec<f64>]) -> usize {
         let of = |x: &Vec<f64>| self.nullity(x);
         zeros.iter().map(of).max().unwrap_or(0)
     }
 
-    /// Whether some combination of the forms is definite, so that they have no common zero.
+    /// Returns true if some combination of the forms is definite, so that they have no common zero.
     pub(in crate::rank) fn is_definite(&self) -> bool {
         self.definite().is_some()
     }
 
-    /// The weights of a combination of the forms that is positive definite, with its least eigenvalue.
+    /// Returns the weights of a positive definite combination of the forms, with its smallest eigenvalue.
     pub(in crate::rank) fn definite(&self) -> Option<(Vec<f64>, f64)> {
         let n = self.motions;
         let mut sum: Matrix = Matrix::zeros(n, n);
@@ -192,7 +195,7 @@ impl Quadrics {
             sum.add_multiple(trace, q);
             all.push(trace);
         }
-        // Towards larger least eigenvalues: add the forms by their values at the least eigenvector.
+        // Increases the smallest eigenvalue by adding the forms, weighted by their values at its eigenvector.
         for _ in 0..200 {
             let (values, vectors) = symmetric_eigen(&sum)?;
             let largest = values[0].abs().max(values[n - 1].abs());
@@ -214,12 +217,12 @@ impl Quadrics {
     }
 }
 
-/// The pairs of motions that the columns of a table of [`works`] stand for.
+/// Returns the pairs of motions of the columns of a table of [`works`].
 fn pairs(motions: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..motions).flat_map(|i| (0..=i).map(move |j| (i, j)))
 }
 
-/// The symmetric matrix of a row of a table of [`works`].
+/// Returns the symmetric matrix of a row of a table of [`works`].
 pub(in crate::rank) fn form(row: &[f64], motions: usize) -> Matrix {
     let mut form = Matrix::zeros(motions, motions);
     for (x, (i, j)) in row.iter().zip(pairs(motions)) {
@@ -229,7 +232,8 @@ pub(in crate::rank) fn form(row: &[f64], motions: usize) -> Matrix {
     form
 }
 
-/// The work of the self-stresses on the gaps of second order: one row a self-stress, one column a pair of motions.
+/// Returns the work of the self-stresses on the gaps of second order: one row per self-stress, one column per pair of
+/// motions.
 ///
 /// # Complexity
 /// O(n² (f + rows · stresses)) for n motions.
@@ -265,7 +269,7 @@ pub(in crate::rank) fn works(pose: &Pose, flat: &Flat) -> Matrix {
     Matrix::from_fn(s, columns.len(), |k, p| columns[p][k])
 }
 
-/// Zeros of all forms, from the given starts.
+/// Returns the zeros of all forms found from the given starts.
 pub(in crate::rank) fn directions(
     quadrics: &Quadrics,
     sparse: Vec<Vec<f64>>,
@@ -289,7 +293,7 @@ pub(in crate::rank) fn directions(
     found
 }
 
-/// Some of the zeros to begin with: those where the cone has the most dimensions first, a few of each.
+/// Selects zeros to begin with: a few of each dimension of the cone, largest dimension first.
 pub(in crate::rank) fn choice(
     quadrics: &Quadrics,
     zeros: &[Vec<f64>],
@@ -309,14 +313,14 @@ pub(in crate::rank) fn choice(
     kinds.into_iter().flat_map(of).take(most).collect()
 }
 
-/// Motions of few joints: a basis of the kernel in reduced form, as weights of its columns.
+/// Returns motions of few joints: a basis of the kernel in reduced form, as weights of its columns.
 pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
     let (f, n) = (kernel.nrows(), kernel.ncols());
     let mut rows: Vec<Vec<f64>> = (0..n)
         .map(|c| (0..f).map(|r| kernel[(r, c)]).collect())
         .collect();
     for i in 0..n {
-        // The largest entry left as the pivot.
+        // The largest remaining entry is the pivot.
         let largest = |row: &Vec<f64>| {
             let at = (0..f).max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs()));
             at.map_or((0, 0.0), |c| (c, row[c].abs()))
@@ -362,8 +366,9 @@ mod tests {
     use crate::model::drawn::{drawn, hinges};
     use crate::model::mechanism::StateId;
 
-    /// A flat parallelogram, hinges at 0, 2, 5 and 3 on a line, goes on as one, or crossed. By hand, of the speeds a, b and c of
-    /// crank, coupler and rocker: 2a + 3b = 2c, and 2a² + 3b² = 2c² to second order, so b = 0 or b = -4a.
+    /// A flat parallelogram, hinges at 0, 2, 5 and 3 on a line, continues as a parallelogram or crossed. By hand, for
+    /// the speeds a, b and c of crank, coupler and rocker: 2a + 3b = 2c, and 2a² + 3b² = 2c² to second order, so b = 0
+    /// or b = -4a.
     #[test]
     fn a_flat_parallelogram_goes_on_both_ways_and_no_other() {
         let at = |x: f64| [x, 0.0, 0.0];
@@ -377,7 +382,7 @@ mod tests {
         let flat = Flat::new(&pose, Some(2));
         let quadrics = Quadrics::new(&pose, &flat);
         let values = |a: f64, b: f64, c: f64| {
-            // Each link against the one before it.
+            // Each link relative to the one before it.
             let q = [a, b - a, c - b, -c];
             let x = flat.kernel.transpose_times(&Matrix::column(&q));
             let gap = norm(&q).powi(2) - norm(x.col(0)).powi(2);

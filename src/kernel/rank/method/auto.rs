@@ -1,5 +1,5 @@
-//! The automatic choice: the cheapest method that is certain for this mechanism, and one line that says what was chosen,
-//! why, and what was left out.
+//! The automatic choice: the cheapest method that is certain for this mechanism. One line states the choice, the
+//! reason, and what was omitted.
 
 use crate::closure::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -13,18 +13,18 @@ use crate::rank::rounded::verdict::{Meant, RankVerdict, allowed, verdict};
 /// A decision for one state.
 #[derive(Debug, Clone)]
 pub struct Decision {
-    /// The rank, and which mechanism it is of.
+    /// The rank, and the mechanism it belongs to.
     pub verdict: RankVerdict,
-    /// The mobility that is really there.
+    /// The finite mobility.
     pub finite: Finite,
-    /// What was chosen, why, and what was left out.
+    /// The choice, the reason, and what was omitted.
     pub line: String,
 }
 
 /// Decides for a state.
 ///
 /// # Errors
-/// Where the geometry has no image in a prime field, or the singular values do not converge.
+/// Returns an error if the geometry has no image in a prime field, or if the singular values do not converge.
 ///
 /// # Complexity
 /// That of [`verdict`], and of the finite mobility.
@@ -37,10 +37,11 @@ pub fn decide(mechanism: &Mechanism, state: StateId) -> Result<Decision, NoAnswe
     })
 }
 
-/// The finite mobility of what is meant.
+/// Returns the finite mobility of the intended geometry.
 fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finite, NoAnswer> {
     let half = allowed(m, found.rounded.as_ref());
-    // What was moved, by half a unit at most, and what is true are on either side of what is written.
+    // The moved coordinates are off by at most half a unit. The moved and the true coordinates may lie on either side
+    // of the written ones.
     let times = if found.is_as_written() { 1.0 } else { 2.0 };
     let known = half.map(|half| Roundings::new(m, half, times));
     let exactly = |m: &Mechanism, rank: usize| {
@@ -66,7 +67,7 @@ fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finit
     })
 }
 
-/// What was chosen and why.
+/// Describes the choice and the reason.
 fn line(found: &RankVerdict) -> String {
     let needed = &found.needed;
     let Some(n) = found.numeric else {

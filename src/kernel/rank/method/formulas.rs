@@ -1,4 +1,4 @@
-//! Counting formulas: links, joints and freedoms, no geometry.
+//! Counting formulas of links, joints and freedoms, without geometry.
 
 use crate::closure::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -14,7 +14,7 @@ pub(crate) struct Spatial;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Planar;
 
-/// `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling; `freedoms` is Σ f_i.
+/// Returns `dim`·(n - 1) - Σ (`dim` - f_i) over the joints of a state, less one for each coupling. `freedoms` is Σ f_i.
 fn count(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i64 {
     let mut links: Vec<_> = mechanism
         .joints_in(state)
@@ -72,7 +72,7 @@ impl MobilityMethod for Planar {
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         let exact = field_of(mechanism, state, 0)?;
         match whole_group(&exact, mechanism, state)?.kind() {
-            // Freedoms out of the plane, which planar mode leaves out, do not count in it.
+            // Freedoms out of the plane, which planar mode omits, do not count here.
             GroupKind::Planar | GroupKind::Rotation => {
                 let freedoms = Closure::new(&exact, mechanism, state)?.columns.len();
                 Ok(counted(count(mechanism, state, 3, freedoms)))

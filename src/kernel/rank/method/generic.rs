@@ -1,8 +1,8 @@
-//! Generic rank: the mobility the same structure has with its joints in general position, by a pebble game.
+//! Generic rank: the mobility of the same structure with its joints in general position, by a pebble game.
 //!
-//! A joint of class c is c bars between two bodies; generically a set of bars is independent exactly where it is
-//! (D, D)-sparse, D = 6 in space and 3 in the plane [Tay 1984; Tay & Whiteley 1984 for hinges; Katoh & Tanigawa 2011],
-//! which the pebble game decides [Lee & Streinu 2008].
+//! A joint of class c is c bars between two bodies. Generically, a set of bars is independent if and only if it is (D,
+//! D)-sparse, with D = 6 in space and 3 in the plane [Tay 1984; Tay & Whiteley 1984 for hinges; Katoh & Tanigawa 2011].
+//! The pebble game decides this [Lee & Streinu 2008].
 
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
 use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
@@ -11,7 +11,7 @@ use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Qu
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Generic;
 
-/// The (D, D) pebble game: bars are taken in as long as they are independent of those before.
+/// The (D, D) pebble game: accepts bars as long as they are independent of the accepted ones.
 #[derive(Debug)]
 struct Pebbles {
     free: Vec<usize>,
@@ -20,7 +20,7 @@ struct Pebbles {
 }
 
 impl Pebbles {
-    /// Brings one more free pebble to `to` without touching those of `keep`.
+    /// Brings one more free pebble to `to` without moving those of `keep`.
     fn gather(&mut self, to: usize, keep: usize) -> bool {
         let mut came: Vec<Option<usize>> = vec![None; self.free.len()];
         let mut stack = vec![to];
@@ -30,7 +30,7 @@ impl Pebbles {
             if at != to && self.free[at] > 0 {
                 self.free[at] -= 1;
                 self.free[to] += 1;
-                // Turn the path round.
+                // Reverses the path.
                 let mut head = at;
                 while head != to {
                     let tail = came[head].unwrap_or(to);
@@ -71,7 +71,7 @@ impl Pebbles {
     }
 }
 
-/// Number of independent bars between bodies in general position.
+/// Returns the number of independent bars between bodies in general position.
 #[must_use]
 pub fn generic_rank(bodies: usize, bars: &[(usize, usize)], dim: usize) -> usize {
     let mut game = Pebbles {
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn loops_of_hinges() {
-        // A ring of n bodies with hinges (five bars each): mobility n - 6, none below.
+        // A ring of n bodies with hinges (five bars each) has mobility n - 6, or 0 below that.
         for n in 3..12_usize {
             let bars: Vec<_> = (0..n)
                 .flat_map(|i| std::iter::repeat_n((i, (i + 1) % n), 5))

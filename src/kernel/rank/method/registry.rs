@@ -1,4 +1,4 @@
-//! The list of methods: what `--method`, the survey and the charts offer.
+//! The list of methods, used by `--method`, the survey and the charts.
 
 use crate::rank::exact::modular;
 use crate::rank::exact::rational;
@@ -27,7 +27,7 @@ pub const ALL: [&dyn MobilityMethod; 13] = [
     &auto::Auto,
 ];
 
-/// The method of a name.
+/// Returns the method with a name.
 #[must_use]
 pub fn by_name(name: &str) -> Option<&'static dyn MobilityMethod> {
     ALL.into_iter().find(|m| m.about().name == name)

@@ -38,7 +38,7 @@ impl MobilityMethod for Loops {
             let rank = echelon::rank(exact.field(), columns.iter().map(Vec::as_slice));
             mobility -= i64::try_from(rank).unwrap_or(0);
         }
-        // A coupling is a row of its own, of rank 1.
+        // A coupling is a separate row, of rank 1.
         mobility -= i64::try_from(closure.couplings.len()).unwrap_or(0);
         Ok(Answer {
             mobility,

@@ -1,4 +1,4 @@
-//! What rounding can do to singular values.
+//! Bounds for the effect of rounding on singular values.
 
 use crate::closure::Closure;
 use crate::geom::expr::Expr;
@@ -8,11 +8,11 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::rounded::Uncertainties;
 use crate::rank::numeric::scaling::Scaling;
 
-/// The most by which errors of the coordinates of at most these half units can have changed any singular value of the scaled J.
+/// Returns the maximum change of any singular value of the scaled J by coordinate errors of at most these half units.
 ///
-/// By Weyl's inequality no singular value changes by more than the norm of the change of the matrix (Golub & Van Loan, "Matrix Computations", 2013,
-/// 8.6.2). A turn feels the error of its direction as it is and, at an arm of at most the mechanism's size, in its moment, and feels
-/// the point's error beside.
+/// By Weyl's inequality no singular value changes by more than the norm of the change of the matrix (Golub & Van Loan,
+/// "Matrix Computations", 2013, 8.6.2). An error of its direction affects a turn directly, and also in its moment, at
+/// an arm of at most the mechanism's size. The error of the point adds to this.
 #[must_use]
 pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncertainties) -> f64 {
     let size = Scaling::of(closure).length();
@@ -23,7 +23,7 @@ pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncer
         let axis = angle(half.axis[at], &joint.frame.axis);
         let length = norm(half.point[at]) / size;
         let turns = of.freedoms().iter().filter(|f| f.turns()).count();
-        // Second axes are made from two vectors.
+        // Second axes are computed from two vectors.
         let own = match freedom {
             Freedom::Rz | Freedom::Tz | Freedom::Screw => axis,
             Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty => {
@@ -32,7 +32,7 @@ pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncer
         };
         match freedom {
             Freedom::Tx | Freedom::Ty | Freedom::Tz => own,
-            // All turns about a point are the same whichever way its axes point.
+            // Turns about a point are the same for any direction of its axes.
             Freedom::Rx | Freedom::Ry | Freedom::Rz if turns == 3 => length,
             Freedom::Screw => 2.0 * own + 2.0 * length + half.pitch[at] / size,
             _ => 2.0 * own + length,

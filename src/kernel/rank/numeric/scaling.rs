@@ -1,32 +1,33 @@
-//! J as floating-point numbers, as it stands or scaled so that the unit of length and the length of axes do not matter.
+//! J in floating point, either unscaled or scaled so that the unit of length and the length of axes do not matter.
 
 use crate::closure::Closure;
 use crate::geom::Reals;
 use ozols_dense::Matrix;
 
-/// J as it stands: 6k × f, lengths in the file's unit, about the global origin.
+/// Returns the unscaled J: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
 pub(crate) fn as_it_stands(closure: &Closure<f64>) -> Matrix {
     let columns = closure.dense(&Reals);
     Matrix::from_fn(closure.rows(), columns.len(), |r, c| columns[c][r])
 }
 
-/// What J is scaled by.
+/// Scaling of J.
 #[derive(Debug, Clone)]
 pub struct Scaling {
-    /// The point that twists are taken about, in space.
+    /// Reference point of the twists, in space.
     middle: Option<[f64; 3]>,
-    /// Components of a twist.
+    /// Number of components of a twist.
     components: usize,
-    /// Lengths are divided by this.
+    /// Divisor of lengths.
     length: f64,
-    /// Columns are then divided by these.
+    /// Divisors of columns, applied afterwards.
     columns: Vec<f64>,
 }
 
 impl Scaling {
-    /// The scaling of a J: about the middle of the joints, lengths over half the diagonal of the box round them (or the
-    /// longest translation of a unit turn, a long pitch say), columns of unit length.
+    /// Computes the scaling of a J: about the middle of the joints, with columns of unit length. Lengths are divided by
+    /// half the diagonal of the joints' bounding box, or by the longest translation of a unit turn (such as a long
+    /// pitch).
     #[must_use]
     pub fn of(closure: &Closure<f64>) -> Scaling {
         let turns = closure.dim / 2;
@@ -62,13 +63,13 @@ impl Scaling {
         scaling
     }
 
-    /// What lengths are divided by.
+    /// Returns the divisor of lengths.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// A twist about the middle.
+    /// Returns a twist about the middle.
     fn about(&self, twist: &[f64]) -> Vec<f64> {
         let mut t = twist.to_vec();
         if let (Some(c), [w0, w1, w2, v0, v1, v2]) = (self.middle, t.as_mut_slice()) {
@@ -87,9 +88,9 @@ impl Scaling {
         t
     }
 
-    /// Scales a twist of any joint, with the numbers behind it, to unit length.
+    /// Scales a twist of any joint to unit length, with the numbers after it.
     pub fn unit(&self, column: &mut [f64]) {
-        // Six components, or the three of a plane; entries of couplings come after them.
+        // Six components, or three in a plane; entries of couplings follow them.
         let twist = self.length_of(&column[..self.components]);
         let size = twist.iter().map(|x| x * x).sum::<f64>().sqrt();
         column[..twist.len()].copy_from_slice(&twist);
@@ -98,7 +99,7 @@ impl Scaling {
         }
     }
 
-    /// A twist of column `c`, scaled as J is.
+    /// Returns a twist of column `c`, scaled like J.
     #[must_use]
     pub fn apply(&self, c: usize, twist: &[f64]) -> Vec<f64> {
         let mut t = self.length_of(twist);
@@ -107,7 +108,7 @@ impl Scaling {
     }
 }
 
-/// J about the middle of the mechanism, lengths over its size, columns of unit length.
+/// Returns J about the middle of the mechanism, with lengths relative to its size and columns of unit length.
 #[must_use]
 pub fn scaled(closure: &Closure<f64>) -> Matrix {
     let scaling = Scaling::of(closure);
@@ -125,7 +126,7 @@ pub fn scaled(closure: &Closure<f64>) -> Matrix {
             Some(false) => -columns[c][r % closure.dim],
         }
     });
-    // Rows of couplings in the speeds of the scaled columns, of unit length.
+    // Rows of couplings refer to the speeds of the scaled columns, which have unit length.
     for (r, coupling) in (closure.contour_rows()..).zip(&closure.couplings) {
         let entries = coupling
             .entries
@@ -139,18 +140,18 @@ pub fn scaled(closure: &Closure<f64>) -> Matrix {
     matrix
 }
 
-/// A numeric rank with the gap it rests on.
+/// A numeric rank with the gap it is based on.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct NumericRank {
     /// Number of values above the tolerance.
     pub rank: usize,
-    /// The smallest kept value over the largest; 1 where none is kept.
+    /// The smallest kept value over the largest; 1 if no value is kept.
     pub kept: f64,
-    /// The largest dropped value over the largest; 0 where none is dropped.
+    /// The largest dropped value over the largest; 0 if no value is dropped.
     pub dropped: f64,
 }
 
-/// The rank that values (of any order and sign) show at a relative tolerance.
+/// Returns the rank that values (of any order and sign) have at a relative tolerance.
 #[must_use]
 pub fn rank_of_values(mut values: Vec<f64>, tolerance: f64) -> NumericRank {
     values.iter_mut().for_each(|v| *v = v.abs());
@@ -174,7 +175,7 @@ mod tests {
     use super::*;
     use crate::geom::vector::cross;
 
-    /// A turn about an axis through c has v = c × ω at the origin, and at c none, whichever way the axis points.
+    /// A turn about an axis through c has v = c × ω at the origin and zero at c, for any direction of the axis.
     #[test]
     fn a_turn_about_the_middle_leaves_it_where_it_is() {
         let c = [2.0, 3.0, 5.0];

@@ -1,4 +1,4 @@
-//! Singular values of J, and the gaps among them that tell what is left over from zero.
+//! Singular values of J, and the gaps between them that distinguish numerical residue from zero.
 
 use crate::closure::Closure;
 use crate::rank::method::NoAnswer;
@@ -8,12 +8,12 @@ use ozols_dense::singular_values;
 
 /// Singular values below this fraction of the largest are zero in double precision.
 pub(in crate::rank) const ROUND_OFF: f64 = 1e-14;
-/// The least ratio between neighbouring singular values that counts as a gap.
+/// Minimum ratio between neighbouring singular values that counts as a gap.
 const GAP: f64 = 1e3;
 /// A gap counts only if its lower end is below this fraction of the largest singular value.
 const LEFT_OVER: f64 = 1e-4;
 
-/// Singular values over the largest, falling.
+/// Singular values relative to the largest, in descending order.
 pub(in crate::rank) struct Values {
     pub(in crate::rank) largest: f64,
     relative: Vec<f64>,
@@ -34,7 +34,7 @@ impl Values {
         self.relative.iter().filter(|v| **v > tolerance).count()
     }
 
-    /// The rank with the gap it rests on.
+    /// Returns the rank with the gap it is based on.
     pub(in crate::rank) fn at(&self, rank: usize) -> NumericRank {
         let value = |i: usize| self.relative.get(i).copied();
         NumericRank {
@@ -44,13 +44,14 @@ impl Values {
         }
     }
 
-    /// How far apart the last value of a rank and the next one are, with values below a floor as high as that.
+    /// Returns the ratio between the last value of a rank and the next one, with values below a floor raised to it.
     pub(in crate::rank) fn gap(&self, rank: usize, floor: f64) -> f64 {
         let found = self.at(rank);
         found.kept.max(floor) / found.dropped.max(floor)
     }
 
-    /// The rank at a gap so wide, and values so small below it, that they are likely left over from zero.
+    /// Returns the rank at a gap so wide, with values below it so small, that they are probably numerical residue of
+    /// zero.
     pub(in crate::rank) fn left_over(&self, rank: usize) -> Option<usize> {
         (1..rank).find(|&r| self.gap(r, ROUND_OFF) >= GAP && self.at(r).dropped < LEFT_OVER)
     }

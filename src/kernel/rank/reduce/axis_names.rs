@@ -12,15 +12,15 @@ use num_traits::ToPrimitive;
 /// A direction with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
-    /// In whole numbers without a common divisor, the first of them above 0.
+    /// Whole numbers without a common divisor, the first nonzero one positive.
     Numbers([i64; 3]),
-    /// That of a joint's axis.
+    /// The direction of a joint's axis.
     AxisOf(JointId),
 }
 
 impl Direction {
-    /// The name of a direction, either way along it: in small whole numbers, or else that of the first joint whose axis has
-    /// it.
+    /// Returns the name of a direction, in either sense: in small whole numbers, or otherwise by the first joint with
+    /// such an axis.
     #[must_use]
     pub fn of(exact: &ExactField, mechanism: &Mechanism, v: [Residue; 3]) -> Option<Direction> {
         let along = |j: &JointId| {
@@ -32,7 +32,7 @@ impl Direction {
             .or_else(|| mechanism.joint_ids().find(along).map(Direction::AxisOf))
     }
 
-    /// "z", "[1, 2, 0]", "the axis of 1-2".
+    /// Describes the direction, such as "z", "[1, 2, 0]" or "the axis of 1-2".
     #[must_use]
     pub fn words(self, mechanism: &Mechanism) -> String {
         match self {
@@ -48,7 +48,7 @@ impl Direction {
 /// The largest whole number in a direction's name.
 const SIMPLE: i64 = 100;
 
-/// A direction in small whole numbers.
+/// Returns a direction in small whole numbers.
 fn simple(f: Field, of: [Residue; 3]) -> Option<[i64; 3]> {
     let first = f.inv(of.into_iter().find(|&x| x != 0)?);
     let modulus = BigInt::from(f.modulus());

@@ -1,4 +1,4 @@
-//! Planes in which joints lie, and what a twist is in such a plane and out of it.
+//! Planes that contain joints, and the parts of a twist in such a plane and out of it.
 //!
 //! # Sources
 //! The two parts: Hunt, "Kinematic Geometry of Mechanisms" (1978), planar and out-of-plane freedoms of planar linkages.
@@ -12,7 +12,8 @@ use crate::model::mechanism::{JointId, Mechanism};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// A plane: its normal, with the first number that is not zero made one, and its distance from the origin along that normal.
+/// A plane: its normal, scaled so that the first nonzero entry is one, and its distance from the origin along that
+/// normal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Plane {
     pub(crate) normal: [Residue; 3],
@@ -22,13 +23,14 @@ pub(crate) struct Plane {
 /// Three rows of a twist, as functions of its six numbers.
 pub(crate) type Rows = [[Residue; 6]; 3];
 
-/// Planes looked at, those of most frames first.
+/// Number of planes examined, those of most frames first.
 const PLANES: usize = 8;
 
-/// The planes across the axes of some joints' frames, through their points, and those of most joints first.
+/// Returns the planes perpendicular to the axes of some joints' frames, through their points, those of most joints
+/// first.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub(crate) fn planes(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -54,8 +56,8 @@ pub(crate) fn planes(
 }
 
 impl Plane {
-    /// The three rows of a twist in the plane, and the three out of it; none in the odd case that they are not independent
-    /// modulo the prime.
+    /// Returns the three rows of a twist in the plane, and the three out of it. Returns `None` in the rare case that
+    /// they are dependent modulo the prime.
     pub(crate) fn rows(self, exact: &ExactField) -> Option<[Rows; 2]> {
         let (f, n) = (exact.field(), self.normal);
         let size = exact.dot(n, n);
@@ -85,7 +87,7 @@ impl Plane {
     }
 }
 
-/// A twist in three rows.
+/// Returns a twist in three rows.
 pub(crate) fn seen(f: Field, rows: &Rows, twist: &[Residue]) -> [Residue; 3] {
     rows.map(|row| f.sum_of_products(row.into_iter().zip(twist.iter().copied())))
 }

@@ -1,13 +1,16 @@
-//! No more rows of the closure equations than the joints move in.
+//! Reduction of the closure equations to the rows in which the joints move.
 //!
-//! Joints that are tied by contours or couplings make a block. Where all joints of a block move in a group of fewer than six
-//! dimensions, as in a plane, that many rows a contour do. Where each joint's freedoms are some in a plane (a turn about its
-//! normal, slides along it) and some out of it (tilts about lines of the plane, a slide along the normal), the equations of
-//! the block fall apart into those in the plane and those out of it, and in each only the rows in which anything moves count.
-//! Ranks add up over parts and blocks; the rows that are left out are zero, or combinations of the others whatever the rest of
-//! the mechanism is, so that they are redundant.
+//! Joints connected by contours or couplings form a block. If all joints of a block move in a group of fewer than six
+//! dimensions, as in a plane, that many rows per contour are enough.
 //!
-//! This is of the pose and the geometry it is asked for: rows in which nothing moves here may be those of a motion in another.
+//! A plane can also split the freedoms of each joint. Those in the plane are a turn about its normal and slides along
+//! it. Those out of it are tilts about lines of the plane and a slide along the normal. Then the equations of the block
+//! split into those in the plane and those out of it. Of both, only the rows with any motion count.
+//!
+//! Ranks add up over parts and blocks. The omitted rows are zero or combinations of the others, for any rest of the
+//! mechanism, so they are redundant.
+//!
+//! The result holds for the given pose and geometry. Rows without motion here may have motion in another pose.
 
 use crate::closure::{Closure, Column, CouplingRow};
 use crate::format::plural;
@@ -23,40 +26,40 @@ use crate::rank::reduce::plane::{Rows, planes, seen};
 use itertools::Itertools;
 use std::collections::HashMap;
 
-/// Motions that rows are of.
+/// Motions that rows describe.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Motions {
     /// Any.
     All,
-    /// Those of a group, named with its dimension.
+    /// Motions of a group, named with its dimension.
     Group(String),
-    /// Those in a plane with this normal, where that has a name.
+    /// Motions in a plane with this normal, if it has a name.
     InPlane(Option<Direction>),
-    /// Those out of it.
+    /// Motions out of the plane.
     OutOfPlane(Option<Direction>),
 }
 
-/// Rows of a block that do not depend on its others.
+/// Rows of a block that are independent of its other rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockRows {
-    /// What they are of.
+    /// Motions that they describe.
     pub motions: Motions,
-    /// Rows a contour.
+    /// Rows per contour.
     pub per_contour: usize,
-    /// All of them, and one for each coupling.
+    /// Number of all rows, including one for each coupling.
     pub rows: usize,
-    /// What J has for such motions.
+    /// Number of rows of J for these motions.
     pub of: usize,
     /// Their rank.
     pub rank: usize,
 }
 
-/// Contours whose joints are tied.
+/// Contours with connected joints.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Block {
-    /// The contours, by their places.
+    /// Indices of the contours.
     pub contours: Vec<usize>,
-    /// One part, or that in a plane and that out of it.
+    /// A single part, or the part in the plane and the part out of it.
     pub parts: Vec<BlockRows>,
 }
 
@@ -65,22 +68,22 @@ pub struct Block {
 pub struct LeastRows {
     /// The blocks, in the order of their first joints.
     pub blocks: Vec<Block>,
-    /// All rows of J.
+    /// Number of rows of J.
     pub of: usize,
-    /// Rows a contour that J has.
+    /// Rows of J per contour.
     dim: usize,
     /// Whether there are joints in no contour.
     outside: bool,
 }
 
 impl LeastRows {
-    /// Looks for them, and finds their rank by one prime.
+    /// Finds the rows and their rank by one prime.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
-    /// That of [`modular::rank`], and eliminations of six by six numbers, a few for each joint and plane looked at.
+    /// That of [`modular::rank`], and eliminations of six by six numbers, a few for each joint and plane examined.
     pub fn new(
         exact: &ExactField,
         mechanism: &Mechanism,
@@ -101,7 +104,7 @@ impl LeastRows {
                 let parts = least(exact, mechanism, joints, &own)?;
                 blocks.push(Block { contours, parts });
             }
-            // Blocks of one and the same group are told as one.
+            // Blocks with the same group are reported as one.
             let dimension = |b: &Block| match b.parts.as_slice() {
                 [part] => matches!(part.motions, Motions::Group(_)).then_some(part.per_contour),
                 _ => None,
@@ -123,19 +126,19 @@ impl LeastRows {
         })
     }
 
-    /// Rank of J, by one prime.
+    /// Returns the rank of J, by one prime.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.parts().map(|p| p.rank).sum()
     }
 
-    /// The rows that are enough.
+    /// Returns the number of rows that are enough.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.parts().map(|p| p.rows).sum()
     }
 
-    /// Whether that is all of them, in one piece for each block.
+    /// Returns true if these are all rows, with a single part per block.
     #[must_use]
     pub fn is_all(&self) -> bool {
         self.parts().all(|p| p.motions == Motions::All)
@@ -145,7 +148,7 @@ impl LeastRows {
         self.blocks.iter().flat_map(|b| &b.parts)
     }
 
-    /// What was taken, and what was left out and why it may be; nothing where all rows are taken as they are.
+    /// Describes the rows used, the rows omitted, and the reason. Empty if all rows are used unchanged.
     #[must_use]
     pub fn words(&self, mechanism: &Mechanism, name: impl Fn(usize) -> String) -> String {
         if self.is_all() {
@@ -260,7 +263,7 @@ impl BlockRows {
         BlockRows::new(exact, name, &group.rows_of(closure), closure.rows())
     }
 
-    /// Redundant constraints of such motions, with those of rows that are left out.
+    /// Returns the number of redundant constraints of such motions, including the omitted rows.
     #[must_use]
     pub fn redundant(&self) -> usize {
         self.of - self.rank
@@ -276,7 +279,8 @@ fn does(n: usize) -> &'static str {
     if n == 1 { "does" } else { "do" }
 }
 
-/// J of each block alone, with the places of its contours; its joints, ascending, are tied to no others.
+/// Returns J of each block on its own, with the indices of its contours. The joints of a block, ascending, are
+/// connected to no others.
 fn of_blocks(
     closure: &Closure<Residue>,
     blocks: &[Vec<JointId>],
@@ -320,7 +324,7 @@ fn of_blocks(
     out
 }
 
-/// The least rows of a block in space.
+/// Returns the smallest set of rows of a block in space.
 fn least(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -331,7 +335,7 @@ fn least(
         return Ok(vec![BlockRows::whole(exact, closure)]);
     }
     let group = group_of(exact, mechanism, joints.iter().copied())?;
-    // A coupling may tie what is in the plane to what is out of it.
+    // A coupling may connect motions in the plane with motions out of it.
     if closure.couplings.is_empty() && group.dimension() > 3 {
         for plane in planes(exact, mechanism, joints.iter().copied())? {
             let Some(rows) = plane.rows(exact) else {
@@ -358,8 +362,8 @@ fn least(
     }])
 }
 
-/// J in the rows in a plane and in those out of it, where anything moves, if each joint's freedoms are those of the two
-/// together.
+/// Returns J in the rows in a plane and in those out of it, without rows that have no motion. Returns `None` unless
+/// each joint's freedoms are those of the two together.
 fn fallen_apart(
     exact: &ExactField,
     closure: &Closure<Residue>,

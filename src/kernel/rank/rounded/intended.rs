@@ -1,4 +1,4 @@
-//! One mechanism for several states: what a search, which is exact, takes for the one that is meant.
+//! One mechanism for several states: the intended geometry, which the exact search uses.
 
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::looks_rounded;
@@ -6,28 +6,28 @@ use crate::rank::method::NoAnswer;
 use crate::rank::rounded::moves::{moved_joints, understood};
 use crate::rank::rounded::verdict::{RankVerdict, rank_of, resolved, verdict_on};
 
-/// The mechanism that is meant, for exact arithmetic.
+/// The intended mechanism, for exact arithmetic.
 #[derive(Debug, Clone, Default)]
 pub struct Settled {
-    /// The snapped mechanism, where that is meant; `None` where the file is taken as written.
+    /// The snapped mechanism if it is the intended one; `None` if the file is used as written.
     pub snapped: Option<Mechanism>,
-    /// The same as other scenes have it that the digits do not rule out.
+    /// The mechanisms of other scenes that the digits do not exclude.
     pub others: Vec<Mechanism>,
-    /// What was understood, where the mechanism was snapped.
+    /// Description of the recovered relations, if the mechanism was snapped.
     pub understood: Option<String>,
-    /// The verdicts on the states; none where every digit is exact, so that there is nothing to decide.
+    /// The verdicts on the states. Empty if every digit is exact, so that there is nothing to decide.
     pub verdicts: Vec<RankVerdict>,
-    /// The first of them that the mechanism does not have the rank of.
+    /// Index of the first verdict whose rank differs from that of the mechanism.
     pub open: Option<usize>,
 }
 
-/// Settles which mechanism is meant in some states.
+/// Determines which mechanism is intended in some states.
 ///
 /// # Errors
-/// As [`verdict`](crate::rank::rounded::verdict::verdict).
+/// Returns an error in the same cases as [`verdict`](crate::rank::rounded::verdict::verdict).
 ///
 /// # Guarantee
-/// Where nothing is open, the exact rank of J in each state is that of the verdict on it.
+/// If no verdict is open, the exact rank of J in each state is that of its verdict.
 pub fn settle(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAnswer> {
     let mut out = Settled::default();
     if looks_rounded(mechanism).is_none() {

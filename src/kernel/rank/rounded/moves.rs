@@ -1,4 +1,4 @@
-//! What a scene that is meant has, in a sentence, and which joints it has moved.
+//! Description of a recovered scene: its relations in a sentence, and the joints it has moved.
 
 use crate::geom::vector::{cross, dot, length, real, sub, unit};
 use crate::meant::mechanism::Meant;
@@ -17,20 +17,20 @@ pub fn moved_joints(meant: &Meant) -> Vec<JointId> {
     joints.filter(moved).map(|(j, _)| j).collect()
 }
 
-/// How far the axes of a frame have turned `[rad]`.
+/// Returns the angle by which the axes of a frame have turned `[rad]`.
 fn turned(before: &Frame, now: &Frame) -> f64 {
     let angle = |a: [f64; 3], b: [f64; 3]| {
         let (a, b) = (unit(a), unit(b));
         length(cross(a, b)).atan2(dot(a, b).abs())
     };
-    // Of doubles alone nothing is told.
+    // Differences at the level of rounding errors are not reported.
     let told = |x: f64| if x > 1e-15 { x } else { 0.0 };
     let of = |a: &[_; 3], b: &[_; 3]| told(angle(real(a), real(b)));
     of(&before.axis, &now.axis).max(of(&before.reference, &now.reference))
 }
 
-/// What was understood: "13 axes parallel, 14 centres in planes, 4 equal vectors; no number moved by more than 0.9 halves of a
-/// unit of its last digit".
+/// Describes the recovered relations: "13 axes parallel, 14 centres in planes, 4 equal vectors" and a largest move such
+/// as 0.9 halves of a unit of the last digit.
 #[must_use]
 pub fn understood(meant: &Meant) -> String {
     let mut parts: Vec<String> = Vec::new();

@@ -1,8 +1,8 @@
-//! The nearest geometry whose closure matrix has a smaller rank, where rounding alone may have raised it.
+//! The nearest geometry whose closure matrix has a smaller rank, if rounding alone may have raised it.
 //!
-//! With U2 and V2 the singular vectors of J beyond the rank wanted, F = U2ᵀ J V2 vanishes to second order exactly where J has
-//! that rank (Golub & Van Loan, "Matrix Computations", 2013, 8.6). Newton's method takes the smallest change of coordinates, counted
-//! in units of their last digit, that makes it vanish.
+//! Let U2 and V2 be the singular vectors of J beyond the required rank. F = U2ᵀ J V2 vanishes to second order if and
+//! only if J has that rank (Golub & Van Loan, "Matrix Computations", 2013, 8.6). Newton's method makes it vanish with
+//! the smallest change of coordinates, measured in units of their last digit.
 
 use crate::closure::Closure;
 use crate::closure::twist::{FrameValues, MotionSpace};
@@ -15,32 +15,34 @@ use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::rank::rounded::size;
 use ozols_dense::{Matrix, svd, thin_svd};
 
-/// Newton steps at most.
+/// Maximum number of Newton steps.
 const STEPS: usize = 12;
-/// The largest move of a coordinate that rounding explains, in units of its last digit: half a unit, and what the least
-/// squares spread.
+/// The largest move of a coordinate that rounding explains, in units of its last digit: half a unit, plus the spread of
+/// the least squares.
 const MOST: f64 = 1.05;
-/// One in a thousand roundings is further off than what is taken for one, in standard deviations: on one side,
+/// Threshold that one in a thousand roundings exceeds, in standard deviations, on one side.
 const RARE: f64 = 3.09;
-/// and on both.
+/// The same threshold on both sides.
 const RARE_EITHER_WAY: f64 = 3.29;
-/// F counts as zero.
+/// Values of F below this count as zero.
 const ZERO: f64 = 1e-12;
-/// Changes that F feels by less than this part of what it feels most are left alone: they follow from the others.
+/// Changes that affect F by less than this share of the largest effect are ignored, because they follow from the
+/// others.
 const FELT: f64 = 1e-3;
-/// Equations · coordinates · the lesser of them, up to which it is tried.
+/// Maximum size of the problem: equations · coordinates · the smaller of the two.
 const LARGEST: usize = 200_000_000;
-/// A step of a finite difference, relative to the size of what is moved: twists are at most quadratic in coordinates.
+/// Step of a finite difference, relative to the size of the moved quantity. Twists are at most quadratic in
+/// coordinates.
 const DIFFERENCE: f64 = 1e-5;
 
-/// A geometry found.
+/// The geometry found.
 #[derive(Debug, Clone)]
 pub struct Nearest {
-    /// The mechanism, its coordinates as doubles.
+    /// The mechanism, with its coordinates as doubles.
     pub mechanism: Mechanism,
     /// The largest change of a coordinate, in units of its last digit.
     pub moved: f64,
-    /// How many independent conditions the coordinates fulfil to have that rank.
+    /// Number of independent conditions that the coordinates satisfy at that rank.
     pub conditions: usize,
 }
 
@@ -50,16 +52,16 @@ struct Coordinate {
     /// 0 for the point, 1 for the axis, 2 for the reference.
     vector: usize,
     component: usize,
-    /// A unit of the last digit.
+    /// One unit of the last digit.
     unit: f64,
-    /// A step of a finite difference, in such units.
+    /// Step of a finite difference, in such units.
     step: f64,
     written: f64,
 }
 
-/// The coordinates of a state that may have been rounded, each with twice its half unit.
+/// Returns the coordinates of a state that may be rounded, each with twice its half unit.
 fn coordinates(m: &Mechanism, state: StateId, half: &Uncertainties) -> Vec<Coordinate> {
-    // In a plane, axes must stay square to it.
+    // In a plane, axes must stay perpendicular to it.
     let spatial = matches!(m.mode, Mode::Spatial);
     let size = size(m);
     let mut out = Vec::new();
@@ -98,7 +100,7 @@ fn coordinates(m: &Mechanism, state: StateId, half: &Uncertainties) -> Vec<Coord
     out
 }
 
-/// The mechanism with its coordinates moved by so many units each.
+/// Returns the mechanism with each coordinate moved by that many units.
 fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
     let mut out = m.clone();
     for (c, x) in of.iter().zip(by) {
@@ -113,12 +115,12 @@ fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
     Some(out)
 }
 
-/// The nearest geometry in which J of a state has a rank, no coordinate moved by more than about a unit of its last digit;
-/// none where there is none, or it is too large to be looked for.
+/// Returns the nearest geometry in which J of a state has a rank, with no coordinate moved by more than about a unit of
+/// its last digit. Returns `None` if there is none, or if the mechanism is too large for the search.
 ///
 /// # Guarantee
-/// Numeric: the rank of J of what is given back is the one wanted to within doubles. That this is what was meant is likely,
-/// not proven.
+/// Numeric: J of the returned mechanism has the required rank within double precision. That this geometry is the
+/// intended one is likely, not proven.
 ///
 /// # Complexity
 /// At most 12 decompositions of a matrix of (6k - rank)(f - rank) rows and 9p columns.
@@ -159,7 +161,7 @@ pub fn nearest(
         for (x, d) in by.iter_mut().zip(step) {
             *x -= d;
         }
-        // Far off already: no step leads back within a unit.
+        // The solution is already too far off: no step leads back within a unit.
         if by.iter().any(|x| !x.is_finite() || x.abs() > 10.0 * MOST) {
             return None;
         }
@@ -169,8 +171,8 @@ pub fn nearest(
     None
 }
 
-/// How F changes with each coordinate, per unit of its last digit: one column a coordinate. Couplings do not feel it: they
-/// are linear in the joints' own rates.
+/// Returns the change of F with each coordinate, per unit of its last digit: one column per coordinate. Couplings are
+/// unaffected, because they are linear in the joints' own rates.
 fn changes(
     m: &Mechanism,
     closure: &Closure<f64>,
@@ -225,7 +227,8 @@ fn changes(
     Some(out)
 }
 
-/// The smallest x with `change · x` = `residue` in what is felt, and in how many ways it is felt.
+/// Returns the smallest x with `change · x` = `residue` in the directions that matter, and the number of these
+/// directions.
 fn least(change: &Matrix, residue: &Matrix) -> Option<(Vec<f64>, usize)> {
     let columns = residue.ncols();
     let right = Matrix::from_fn(change.nrows(), 1, |r, _| {
@@ -236,10 +239,12 @@ fn least(change: &Matrix, residue: &Matrix) -> Option<(Vec<f64>, usize)> {
     Some((factors.least_norm(felt, &right).col(0).to_vec(), felt))
 }
 
-/// The square of the longest move that rounding explains, in units of the last digit. The errors of rounding are uniform and
-/// independent, of variance 1/12; the smallest move back is their projection to as many dimensions as there are conditions,
-/// so that twelve times its square follows nearly the chi-square law. Of one condition that is the square of a normal number,
-/// of more its quantile is that of Wilson & Hilferty ("The distribution of chi-square", 1931), too high by less than 3 %.
+/// Returns the square of the longest move that rounding explains, in units of the last digit.
+///
+/// Rounding errors are uniform and independent, of variance 1/12. The smallest move back is their projection to as many
+/// dimensions as there are conditions, so twelve times its square nearly follows the chi-square law. For one condition
+/// that is the square of a normal number. For more, its quantile is that of Wilson & Hilferty ("The distribution of
+/// chi-square", 1931), too high by less than 3 %.
 fn largest_square(conditions: usize) -> f64 {
     if conditions <= 1 {
         return RARE_EITHER_WAY.powi(2) / 12.0;

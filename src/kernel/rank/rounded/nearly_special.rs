@@ -1,5 +1,5 @@
-//! Joints that are nearly special: axes that are all but parallel, square, coaxial or concurrent, what they nearly are, and how far
-//! they are from it.
+//! Joints that are nearly special: axes that are almost parallel, perpendicular, coaxial or concurrent, with the
+//! relation and the deviation from it.
 
 mod directions;
 mod places;
@@ -16,7 +16,8 @@ use directions::Directions;
 use places::{PlaceKind, kind, places};
 use relation::{NearJoint, Reach, Relation};
 
-/// Returns how far the rounding of coordinates can have moved two joints of a mechanism apart; none where its digits are exact.
+/// Returns how far the rounding of coordinates can have moved two joints of a mechanism apart, or `None` if its digits
+/// are exact.
 #[must_use]
 pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
     let half = allowed(mechanism, looks_rounded(mechanism).as_ref())?;
@@ -28,11 +29,11 @@ pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
     })
 }
 
-/// Returns the joints that are nearly special, in file order: directions within the angle of each other or of square, lines and
-/// centres within the length of a common point or of each other.
+/// Returns the joints that are nearly special, in file order. Their directions are within the angle of each other or of
+/// a right angle. Their lines and centres are within the length of a common point or of each other.
 ///
 /// # Guarantee
-/// None is further off than the reach.
+/// No deviation exceeds the reach.
 ///
 /// # Complexity
 /// O(p³) in the number of joints p.
@@ -63,14 +64,14 @@ pub fn nearly_special(mechanism: &Mechanism, reach: Reach) -> Vec<NearJoint> {
             relations,
         })
         .filter(|x| {
-            // Rounding of doubles aside.
+            // Allowance for the rounding of doubles.
             let much = 1.0 + 1e-9;
             x.shift <= much * reach.length && x.turn <= much * reach.angle
         })
         .collect()
 }
 
-/// Axes and second axes.
+/// Snaps axes and second axes.
 fn turn(m: &mut Mechanism, angle: f64, why: &mut [Vec<(Relation, Option<JointId>)>]) {
     let normal = match &m.mode {
         Mode::Spatial => None,
@@ -101,7 +102,7 @@ fn turn(m: &mut Mechanism, angle: f64, why: &mut [Vec<(Relation, Option<JointId>
     }
 }
 
-/// Returns how far a joint's line or centre is from where it nearly is.
+/// Returns the distance of a joint's line or centre from its special position.
 fn shift(written: &Joint, special: &Joint) -> f64 {
     let off = sub(real(&special.frame.point), real(&written.frame.point));
     match kind(&written.joint_type) {
@@ -110,7 +111,7 @@ fn shift(written: &Joint, special: &Joint) -> f64 {
     }
 }
 
-/// Returns how far a joint's axes are from what they nearly are.
+/// Returns the angle of a joint's axes from their special directions.
 fn turned(written: &Joint, special: &Joint) -> f64 {
     let angle = |a: Vector, b: Vector| {
         let sine = length(vector::cross(unit(a), unit(b)));

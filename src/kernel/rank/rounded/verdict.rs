@@ -1,8 +1,9 @@
-//! The verdict on the rank of a state: as written, or as meant where coordinates are rounded, or undecided.
+//! The verdict on the rank of a state: as written, as intended if coordinates are rounded, or undecided.
 //!
-//! Rounding raises ranks. A singular value above the rounding bound is real; if all that the exact rank counts are, the
-//! exact rank holds. If not, those below the bound may be zero, and are taken for it only if a gap says so and there is such a
-//! geometry within the digits: the scene that is meant, exactly, or else by Newton's method.
+//! Rounding raises ranks. A singular value above the rounding bound is nonzero. If this holds for all values that the
+//! exact rank counts, the exact rank is valid. If not, those below the bound may be zero. They are treated as zero only
+//! if there is a clear gap and a geometry with that rank exists within the digits. That geometry is the recovered
+//! scene, exactly, or otherwise one found by Newton's method.
 
 use crate::closure::Closure;
 use crate::geom::Reals;
@@ -20,36 +21,36 @@ use crate::rank::rounded::moves::{moved_joints, understood};
 use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
 use crate::rank::rounded::size;
 
-/// A gap narrower than this among what rounding can have made says nothing.
+/// Minimum gap that is significant among values that rounding can have made.
 const CLEAR: f64 = 30.0;
-/// Nothing is known better in double precision, relative to the largest singular value.
+/// Limit of double precision, relative to the largest singular value.
 const LEAST: f64 = 1e-13;
-/// A scene whose numbers would have to move by more halves of their last digit is not the one that is meant.
+/// Maximum move of a number in the intended scene, in halves of its last digit.
 const FURTHEST: f64 = 1.2;
-/// A geometry that is near by chance more often than this says nothing.
+/// Probability of a chance coincidence above which a nearby geometry is not significant.
 const CHANCE: f64 = 1e-3;
-/// How many units, relative to the size, the geometries are wide that one condition lets be near.
+/// Width, in units relative to the size, of the geometries near one condition.
 const WIDE: f64 = 20.0;
 
-/// Which mechanism a verdict is about.
+/// The mechanism that a verdict refers to.
 #[derive(Debug, Clone)]
 pub enum Meant {
-    /// The one that is written: no rounding of its digits lowers the rank.
+    /// The mechanism as written: no rounding of its digits lowers the rank.
     AsWritten,
-    /// The one with its near-coincidences exact.
+    /// The mechanism with its near-coincidences made exact.
     Snapped {
-        /// It.
+        /// The mechanism.
         mechanism: Box<Mechanism>,
         /// Rank of its J, exact.
         rank: usize,
-        /// How many joints were moved.
+        /// Number of joints moved.
         moved: usize,
-        /// What was understood.
+        /// Description of the recovered relations.
         understood: String,
     },
-    /// The nearest one whose J has a smaller rank.
+    /// The nearest mechanism whose J has a smaller rank.
     Near {
-        /// It, in doubles.
+        /// The mechanism, in doubles.
         mechanism: Box<Mechanism>,
         /// Rank of its J, numeric.
         rank: usize,
@@ -58,7 +59,7 @@ pub enum Meant {
     },
     /// Not decided.
     Undecided {
-        /// The rank that may be meant.
+        /// The rank that may be intended.
         near: usize,
     },
 }
@@ -68,26 +69,26 @@ pub enum Meant {
 pub struct RankVerdict {
     /// Name of the state.
     pub state: String,
-    /// f.
+    /// f, the number of freedoms.
     pub freedoms: usize,
     /// Rows of J.
     pub rows: usize,
-    /// Why coordinates look rounded, where they do.
+    /// The reason why coordinates look rounded, if they do.
     pub rounded: Option<Rounded>,
-    /// Rank of J with every digit taken at its word, by one prime.
+    /// Rank of J with every digit taken exactly as written, by one prime.
     pub as_written: usize,
-    /// Singular values of the J that is written, at the rank meant; none where every digit is exact.
+    /// Singular values of J as written, at the intended rank; `None` if every digit is exact.
     pub numeric: Option<NumericRank>,
-    /// What rounding can do to a singular value, relative to the largest.
+    /// The possible effect of rounding on a singular value, relative to the largest.
     pub tolerance: f64,
-    /// What is meant.
+    /// The intended mechanism.
     pub meant: Meant,
-    /// What rows of J, as it is written, are enough for its rank; empty where all are taken.
+    /// The rows of J, as written, that are enough for its rank. Empty if all are used.
     pub needed: String,
 }
 
 impl RankVerdict {
-    /// The rank of J; as written where that is not decided, which then is the most it can be.
+    /// Returns the rank of J. If undecided, this is the rank as written, which is then an upper bound.
     #[must_use]
     pub fn rank(&self) -> usize {
         match self.meant {
@@ -96,7 +97,7 @@ impl RankVerdict {
         }
     }
 
-    /// The least rank it can be: that of the mechanism that may be meant where it is not decided.
+    /// Returns the lower bound of the rank: if undecided, that of the mechanism that may be intended.
     #[must_use]
     pub fn at_least(&self) -> usize {
         match self.meant {
@@ -105,7 +106,7 @@ impl RankVerdict {
         }
     }
 
-    /// (W, σ) of a rank.
+    /// Returns (W, σ) at a rank.
     #[must_use]
     pub fn figures(&self, rank: usize) -> (usize, usize) {
         (
@@ -114,13 +115,13 @@ impl RankVerdict {
         )
     }
 
-    /// Whether it is decided.
+    /// Returns true if the rank is decided.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         !matches!(self.meant, Meant::Undecided { .. })
     }
 
-    /// The mechanism that it is about, where that is not the one that is written.
+    /// Returns the mechanism of the verdict, if it is not the one as written.
     #[must_use]
     pub fn mechanism(&self) -> Option<&Mechanism> {
         match &self.meant {
@@ -129,7 +130,7 @@ impl RankVerdict {
         }
     }
 
-    /// One word for programs.
+    /// Returns one word for programs.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self.meant {
@@ -140,19 +141,19 @@ impl RankVerdict {
         }
     }
 
-    /// Whether it is about the mechanism that is written.
+    /// Returns true if the verdict is about the mechanism as written.
     #[must_use]
     pub fn is_as_written(&self) -> bool {
         matches!(self.meant, Meant::AsWritten)
     }
 
-    /// Whether what is written and what is meant have the same figures.
+    /// Returns true if the written and the intended mechanism have the same figures.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.is_decided() && self.rank() == self.as_written
     }
 
-    /// Why it is not decided, and what to do.
+    /// Explains why the rank is undecided, and what to do.
     #[must_use]
     pub fn undecided(&self) -> String {
         let ((w, sigma), (near_w, near_sigma)) =
@@ -170,7 +171,7 @@ impl RankVerdict {
     }
 }
 
-/// The exact rank, by the rows that are enough for it.
+/// Returns the exact rank, by the rows that are enough for it.
 fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), NoAnswer> {
     let exact = field_of(mechanism, state, 0)?;
     let closure = Closure::new(&exact, mechanism, state)?;
@@ -179,7 +180,7 @@ fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), 
     Ok((least.rank(), words))
 }
 
-/// The exact rank of J of a mechanism that is snapped, by one prime.
+/// Returns the exact rank of J of a snapped mechanism, by one prime.
 pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
     let exact = field_of(mechanism, state, 0)?;
     Ok(modular::rank(
@@ -191,33 +192,34 @@ pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<
 /// Returns the verdict on a state.
 ///
 /// # Errors
-/// Where the geometry has no image in a prime field, or the singular values do not converge.
+/// Returns an error if the geometry has no image in a prime field, or if the singular values do not converge.
 ///
 /// # Guarantee
-/// As written where Weyl's bound holds the exact rank against any rounding of the last digits. As meant where a geometry
-/// within the digits has the rank of the values above the bound: likely, not proven. Undecided otherwise.
+/// As written if Weyl's bound protects the exact rank against any rounding of the last digits. As intended if a
+/// geometry within the digits has the rank of the values above the bound, which is likely, not proven. Undecided
+/// otherwise.
 ///
 /// # Complexity
-/// The scene that is meant; one modular rank; with decimals one singular value decomposition more, and only where they disagree
-/// [`nearest`].
+/// The recovery of the intended scene and one modular rank. With decimals also one singular value decomposition, and
+/// [`nearest`] only if the ranks disagree.
 pub fn verdict(mechanism: &Mechanism, state: StateId) -> Result<RankVerdict, NoAnswer> {
     let scene = resolved(mechanism);
     verdict_on(mechanism, state, scene.as_ref())
 }
 
-/// Returns the scene that is meant, where digits say what is.
+/// Returns the intended scene, if the digits determine one.
 pub(in crate::rank) fn resolved(mechanism: &Mechanism) -> Option<Scene> {
     scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST)
 }
 
-/// [`verdict`] with the scene that is meant known.
+/// Works as [`verdict`], with the intended scene known.
 pub(in crate::rank) fn verdict_on(
     mechanism: &Mechanism,
     state: StateId,
     scene: Option<&Scene>,
 ) -> Result<RankVerdict, NoAnswer> {
     let file = mechanism;
-    // In a plane joints must stay square to it: as they are written they have no freedom there.
+    // In a plane, joints must stay perpendicular to it. As written they have no freedom there.
     let planar = |_: &&Scene| matches!(file.mode, Mode::Planar { .. });
     let mechanism = scene.filter(planar).map_or(file, |s| &s.mechanism);
     let (as_written, needed) = exact_rank(mechanism, state)?;
@@ -252,10 +254,10 @@ pub(in crate::rank) fn verdict_on(
         (found.numeric, found.meant) = (Some(values.at(at)), meant);
         return Ok(found);
     }
-    // A value below the tolerance may be zero, whatever the exact rank makes of it.
+    // A value below the tolerance may be zero, for any exact rank.
     found.numeric = Some(values.at(above));
     found.meant = if values.gap(above, ROUND_OFF) < CLEAR {
-        // One gap is much like another there.
+        // The gaps there are too similar to choose one.
         Meant::Undecided {
             near: values.left_over(above).unwrap_or(above),
         }
@@ -265,7 +267,7 @@ pub(in crate::rank) fn verdict_on(
     Ok(found)
 }
 
-/// Returns what coordinates may be off by: half the units of their last digits; none where every digit is exact.
+/// Returns the uncertainty of coordinates: half the units of their last digits, or `None` if every digit is exact.
 pub(in crate::rank) fn allowed(
     file: &Mechanism,
     rounded: Option<&Rounded>,
@@ -275,7 +277,8 @@ pub(in crate::rank) fn allowed(
     Some(uncertainties(file).unwrap_or_else(|| Uncertainties::uniform(file, length, direction)))
 }
 
-/// The verdict where no rounding can have made the singular values that the rank counts, and the rank to show them at.
+/// Returns the verdict if no rounding can have made the singular values that the rank counts, and the rank at which to
+/// show them.
 fn counted(
     values: &Values,
     above: usize,
@@ -284,14 +287,14 @@ fn counted(
 ) -> (usize, Meant) {
     match (values.left_over(rank), scene) {
         (Some(near), _) => (near, Meant::Undecided { near }),
-        // No rounding can have made what the digits say is there in truth.
+        // No rounding can have made a relation that the digits establish.
         (_, Some(_)) if above > rank => (rank, Meant::Undecided { near: rank }),
         (_, Some((s, _))) => (rank, snapped(s, rank)),
         _ => (rank, Meant::AsWritten),
     }
 }
 
-/// The verdict that a scene is meant.
+/// Returns the verdict that a scene is intended.
 fn snapped(scene: &Scene, rank: usize) -> Meant {
     Meant::Snapped {
         mechanism: Box::new(scene.mechanism.clone()),
@@ -301,9 +304,9 @@ fn snapped(scene: &Scene, rank: usize) -> Meant {
     }
 }
 
-/// Returns the mechanism that is meant if J is to have a rank.
+/// Returns the intended mechanism if J is to have a rank.
 fn meant(mechanism: &Mechanism, state: StateId, rank: usize, half: &Uncertainties) -> Meant {
-    // With few digits a geometry of that rank is near by chance, unless it asks for several conditions at once.
+    // With few digits, a geometry of that rank is close by chance, unless it requires several conditions at once.
     let [length, direction] = half.largest(mechanism);
     let share = (WIDE * 2.0 * direction.max(length / size(mechanism))).min(1.0);
     let chance = |n: &Nearest| {
@@ -329,7 +332,8 @@ mod tests {
     use super::*;
     use crate::model::drawn::{X, drawn, hinges};
 
-    /// Two hinges of a door half a last digit apart are meant to be on one line, unless digits are so few that any two would be.
+    /// Two hinges of a door half a last digit apart are intended to be on one line, unless there are so few digits that
+    /// any two would be.
     #[test]
     fn of_few_digits_a_geometry_that_is_near_says_nothing() {
         for (unit, near) in [(1e-6, true), (1e-3, false)] {

@@ -1,9 +1,9 @@
-//! Rank, mobility, redundancy and conditioning over a stroke of a drive, and where they change.
+//! Rank, mobility, redundancy and conditioning over a stroke of a drive, and the positions at which they change.
 //!
 //! Ranks are by singular values of J in lengths of the mechanism's size, at poses closed by Newton's method. A change
-//! between two poses is bracketed by bisection. A rank that falls in a single pose only, between two poses asked for,
-//! shows as a smallest kept singular value that falls and rises again; its lowest point is found by golden section and
-//! counts where the value vanishes there.
+//! between two poses is bracketed by bisection. A rank may fall in a single pose between two requested poses. The
+//! smallest kept singular value then falls and rises again. Its lowest point is found by golden section and counts if
+//! the value vanishes there.
 
 use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{LinkId, Mechanism, Mode, Role, StateId};
@@ -12,20 +12,20 @@ use crate::motion::pose::{FLAT, Pose};
 use crate::rank::numeric::scaling::{NumericRank, rank_of_values};
 use ozols_dense::{Matrix, singular_values};
 
-/// Changes of rank are bracketed to this fraction of the stroke, or to the stretch where singular values are below the
-/// tolerance where that is longer.
+/// Width of the bracket of a rank change, as a fraction of the stroke. If longer, the interval with singular values
+/// below the tolerance is used.
 pub(crate) const BRACKET: f64 = 1e-6;
-/// The lowest point of a singular value is found to this fraction of the stroke.
+/// Accuracy of the lowest point of a singular value, as a fraction of the stroke.
 const LOWEST: f64 = 1e-9;
-/// Golden section.
+/// Ratio of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105;
 
-/// Where an output link is.
+/// Position of an output link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Output {
     /// The link.
     pub link: LinkId,
-    /// Where the middle of its joints has gone to, in the file's length unit.
+    /// Position of the middle of its joints, in the file's length unit.
     pub point: [f64; 3],
     /// The angle of its turn since the pose of the file `[rad]`, 0 to π.
     pub turn: f64,
@@ -44,7 +44,7 @@ pub struct PoseFigures {
     pub redundant: usize,
     /// Share of the drive's speed in the motion of unit length; 0 at a dead point of the drive.
     pub share: f64,
-    /// What the contours are open by: radians, and fractions of the mechanism's size.
+    /// The gap of the contours: radians, and fractions of the mechanism's size.
     pub gap: f64,
     /// The output links.
     pub outputs: Vec<Output>,
@@ -55,20 +55,21 @@ pub struct PoseFigures {
 pub struct RankChange {
     /// Positions of the drive on either side, in the order of the stroke: radians or the file's length unit.
     pub between: [f64; 2],
-    /// Rank before, between and after. Before and after are the same where it falls in one pose only.
+    /// Rank before, between and after. Before and after are equal if the rank falls in one pose only.
     pub ranks: [usize; 3],
 }
 
 /// A stroke with its figures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrokeFigures {
-    /// The poses reached of those asked for, in order.
+    /// The requested poses that were reached, in order.
     pub poses: Vec<PoseFigures>,
     /// Changes of rank between the first of them and the end.
     pub changes: Vec<RankChange>,
-    /// The end of the way before the last pose asked for, the position in radians or the file's length unit.
+    /// The end of the path if it lies before the last requested pose, with the position in radians or the file's length
+    /// unit.
     pub stop: Option<Stop>,
-    /// Output motions that no drive decides: with them the way taken is one of many, the shortest.
+    /// Number of output motions that no drive determines. If nonzero, the path followed is the shortest of many.
     pub undriven: usize,
 }
 
@@ -83,11 +84,11 @@ pub struct StrokeRequest<'a> {
     pub drive: usize,
     /// Columns of the other drives.
     pub held: &'a [usize],
-    /// From and to, radians or the file's length unit.
+    /// Start and end, in radians or the file's length unit.
     pub range: [f64; 2],
-    /// Equal steps.
+    /// Number of equal steps.
     pub steps: usize,
-    /// Singular values below this fraction of the largest count as zero; [`FLAT`] where none is given.
+    /// Singular values below this fraction of the largest count as zero. The default is [`FLAT`].
     pub tolerance: Option<f64>,
 }
 
@@ -98,21 +99,21 @@ fn values(matrix: &Matrix) -> Vec<f64> {
 struct Looker<'a> {
     request: &'a StrokeRequest<'a>,
     tolerance: f64,
-    /// Rows of a contour: 6 or 3.
+    /// Rows per contour: 6 or 3.
     dim: usize,
-    /// File's unit of the drive's coordinate.
+    /// The file's unit of the drive's coordinate.
     unit: f64,
     /// Output links with the middle of their joints, in the pose's coordinates.
     outputs: Vec<(LinkId, [f64; 3])>,
 }
 
-/// Singular values in a pose on the way.
+/// Singular values in a pose along the path.
 #[derive(Debug, Clone)]
 struct PoseValues {
     follower: Follower,
     at: f64,
     rank: NumericRank,
-    /// Relative singular values, falling.
+    /// Relative singular values in descending order.
     values: Vec<f64>,
 }
 
@@ -191,7 +192,7 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// The sample at a position, reached from one near it.
+    /// Returns the sample at a position, reached from a nearby one.
     fn from(&self, near: &PoseValues, at: f64) -> Option<PoseValues> {
         let mut follower = near.follower.clone();
         follower.advance(at, |_| {}).ok()?;
@@ -201,7 +202,7 @@ impl<'a> Looker<'a> {
     /// Brackets the change between two poses of different ranks.
     fn bisect(&self, low: &PoseValues, high: &PoseValues, width: f64, out: &mut Vec<RankChange>) {
         let (mut low, mut high) = (low.clone(), high.clone());
-        // Two such brackets and the flat stretch between them make one change in one pose.
+        // Two such brackets and the flat interval between them form one change in one pose.
         while (high.at - low.at).abs() > width / 8.0 {
             let Some(middle) = self.from(&low, f64::midpoint(low.at, high.at)) else {
                 break;
@@ -218,7 +219,8 @@ impl<'a> Looker<'a> {
         });
     }
 
-    /// The lowest kept singular value between two poses of one rank round a third, where it vanishes.
+    /// Finds the lowest kept singular value between two poses of one rank around a third, and records it if it
+    /// vanishes.
     fn lowest(&self, around: [&PoseValues; 3], width: f64, out: &mut Vec<RankChange>) {
         let rank = around[1].rank.rank;
         let Some(last) = rank.checked_sub(1) else {
@@ -251,7 +253,7 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// Changes along the way.
+    /// Returns the changes along the path.
     fn changes(&self, way: &[PoseValues]) -> Vec<RankChange> {
         let [from, to] = self.request.range;
         let width = BRACKET * ((to - from) / self.unit).abs();
@@ -293,7 +295,7 @@ impl<'a> Looker<'a> {
         let mut merged: Vec<RankChange> = Vec::new();
         for c in found {
             match merged.last_mut() {
-                // Down and up again is one change in one pose.
+                // A fall followed by a rise is one change in one pose.
                 Some(l)
                     if l.ranks[2] == c.ranks[0]
                         && l.ranks[0] == c.ranks[2]
@@ -312,7 +314,7 @@ impl<'a> Looker<'a> {
         merged
     }
 
-    /// Output motions with all drives held.
+    /// Returns the number of output motions with all drives held.
     fn undriven(&self, pose: &Pose) -> usize {
         let m = self.request.mechanism;
         let paths: Vec<_> = self
@@ -331,10 +333,10 @@ impl<'a> Looker<'a> {
     }
 }
 
-/// Follows a drive over a stroke and looks at every pose. `pose` is the file's, closed or nearly so.
+/// Follows a drive over a stroke and analyses every pose. `pose` is that of the file, closed or nearly so.
 ///
 /// # Complexity
-/// Some ten closings and singular values of O((6k + f)³) a radian and step, and some thirty a change.
+/// About ten closures and singular values of O((6k + f)³) per radian and step, and about thirty per change.
 #[must_use]
 pub fn stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
     let looker = Looker::new(request, pose);
@@ -357,7 +359,7 @@ pub fn stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
             });
             break;
         }
-        // A position asked for is a pose on the way, the last one.
+        // A requested position is a pose along the path, the last one.
         let last = way.last().filter(|s| s.at == follower.at());
         poses.push(match last {
             Some(s) => looker.figures(s),
@@ -368,7 +370,7 @@ pub fn stroke(request: &StrokeRequest<'_>, pose: &Pose) -> StrokeFigures {
         changes: looker.changes(&way),
         poses,
         stop,
-        // Where branches cross there are motions enough, and the drive decides none.
+        // At a crossing of branches there are several motions, and the drive does not choose one.
         undriven: match stop.map(|s| s.why) {
             Some(Why::Singular | Why::Instantaneous) => 0,
             _ => looker.undriven(pose),

@@ -1,4 +1,4 @@
-//! A stroke in the words of its user: which column moves, which are held, how exactly it is followed.
+//! A stroke as requested by the user: the column that moves, the columns held, and the accuracy of following.
 
 use crate::geom::exact::ExactError;
 use crate::model::joint_type::Freedom;
@@ -11,22 +11,22 @@ use crate::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
 use itertools::Itertools;
 use thiserror::Error;
 
-/// Most steps: every pose on the way is kept.
+/// Maximum number of steps, since every pose along the path is kept.
 const MOST: usize = 10_000;
 
-/// Why a mechanism cannot be followed over a stroke.
+/// Reason why a mechanism cannot be followed over a stroke.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum AskedError {
-    /// Which mechanism is meant is not known.
+    /// It is unknown which mechanism is intended.
     #[error("the motion of {name} over a stroke is not known: {why}")]
     Undecided {
         /// Name of the mechanism.
         name: String,
-        /// Why not.
+        /// The reason.
         why: String,
     },
-    /// Angles for a drive that slides.
+    /// The range is in angles, but the drive slides.
     #[error(
         "--stroke {range:?} is in angles, but the drive slides; give lengths in the file's unit, {unit}"
     )]
@@ -36,22 +36,22 @@ pub enum AskedError {
         /// Symbol of the unit.
         unit: &'static str,
     },
-    /// Too far, or in too many steps.
+    /// The range is too long, or has too many steps.
     #[error("--stroke goes to at most {MOST} steps and {0:.0} radians or length units")]
     Far(f64),
-    /// A joint without that freedom.
+    /// The joint has no such freedom.
     #[error("joint {joint} has no freedom{freedom} to be driven in state {state}; {could}")]
     NoFreedom {
         /// The joint.
         joint: String,
-        /// The freedom, after a space; nothing where none was named.
+        /// The freedom, after a space; empty if none was named.
         freedom: String,
         /// The state.
         state: String,
-        /// What could be driven.
+        /// The joints that could be driven.
         could: String,
     },
-    /// A joint with several.
+    /// The joint has several freedoms.
     #[error(
         "joint {joint} has several freedoms; say which moves: --drive {}", names.join(" or --drive ")
     )]
@@ -61,12 +61,12 @@ pub enum AskedError {
         /// Its freedoms.
         names: Vec<String>,
     },
-    /// No such joint.
+    /// There is no such joint.
     #[error("there is no joint {name}; {could}")]
     NoJoint {
-        /// What was named.
+        /// The given name.
         name: String,
-        /// What could be driven.
+        /// The joints that could be driven.
         could: String,
     },
     /// Nothing is driven.
@@ -74,15 +74,15 @@ pub enum AskedError {
     NoDrive {
         /// Name of the mechanism.
         name: String,
-        /// What could be driven.
+        /// The joints that could be driven.
         could: String,
     },
-    /// No joint but balls can be a drive.
+    /// Only spherical joints could be drives.
     #[error("{name} has no joint that moves about or along an axis of its own; {could}")]
     Still {
         /// Name of the mechanism.
         name: String,
-        /// What could be driven.
+        /// The joints that could be driven.
         could: String,
     },
     /// A coordinate has no value.
@@ -90,7 +90,7 @@ pub enum AskedError {
     Exact(#[from] ExactError),
 }
 
-/// A stroke that is asked for.
+/// A requested stroke.
 #[derive(Debug)]
 pub struct AskedStroke<'a> {
     mechanism: &'a Mechanism,
@@ -103,14 +103,14 @@ pub struct AskedStroke<'a> {
     held: Vec<usize>,
 }
 
-/// Whether a column is of a ball, whose axes are those of the file's frame and nobody's choice.
+/// Returns true if a column belongs to a ball, whose axes are those of the file's frame and not a choice of the user.
 fn of_ball(pose: &Pose, column: usize) -> bool {
     let of = pose.columns[column].joint;
     let own = pose.columns.iter().filter(|c| c.joint == of);
     own.filter(|c| c.freedom.turns()).count() == 3
 }
 
-/// The columns, with the names they are driven by.
+/// Returns the columns, with the names they are driven by.
 fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
     let of = |j: JointId| pose.columns.iter().filter(move |c| c.joint == j);
     let columns = pose.columns.iter().enumerate();
@@ -128,13 +128,14 @@ fn names(m: &Mechanism, pose: &Pose) -> Vec<(usize, String)> {
 }
 
 impl<'a> AskedStroke<'a> {
-    /// What a range, as it was written and read, and the joint named as the drive ask of the mechanism that a verdict is about.
+    /// Creates the stroke for the mechanism of a verdict. The range is given as written and as parsed, and `named` is
+    /// the joint named as the drive.
     ///
     /// # Units
     /// Radians, or the file's unit of length, from the pose of the file.
     ///
     /// # Errors
-    /// Where the mechanism has no such drive, or which mechanism is meant is not decided.
+    /// Returns an error if the mechanism has no such drive, or if it is undecided which mechanism is intended.
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
@@ -170,30 +171,30 @@ impl<'a> AskedStroke<'a> {
         })
     }
 
-    /// The mechanism that is meant, and the state.
+    /// Returns the intended mechanism, and the state.
     #[must_use]
     pub fn subject(&self) -> (&'a Mechanism, StateId) {
         (self.mechanism, self.state)
     }
 
-    /// The drive by name, and whether it slides.
+    /// Returns the name of the drive, and whether it slides.
     #[must_use]
     pub fn drive(&self) -> (String, bool) {
         let name = name_of(self.mechanism, &self.pose, self.drive);
         (name, slides(&self.pose, self.drive))
     }
 
-    /// From and to.
+    /// Returns the start and the end.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         [self.range.from, self.range.to]
     }
 
-    /// Goes there.
+    /// Follows the stroke.
     #[must_use]
     pub fn follow(&self) -> StrokeFigures {
         let found = self.verdict;
-        // Rounded coordinates close no better than what they leave of a zero.
+        // Contours with rounded coordinates close only within the rounding.
         let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
         let rounded = measured || !matches!(found.meant, Meant::AsWritten);
         let (mut pose, mut tolerance) = (self.pose.clone(), self.tolerance);
@@ -201,7 +202,7 @@ impl<'a> AskedStroke<'a> {
             pose = pose.with_accuracy((10.0 * n.dropped).clamp(1e-16, found.tolerance));
             tolerance = Some(found.tolerance.max(FLAT));
         } else if let Some(t) = tolerance {
-            // Singular values below a hundred times the accuracy count as zero on the way.
+            // Singular values below a hundred times the accuracy count as zero along the path.
             pose = pose.with_accuracy(t / 100.0);
         }
         let request = StrokeRequest {
@@ -217,8 +218,8 @@ impl<'a> AskedStroke<'a> {
     }
 }
 
-/// The joint and the freedom of a name such as `joint:rz`; without a freedom where all of it is a joint's name, or no joint has
-/// the first part.
+/// Splits a name such as `joint:rz` into joint and freedom. The freedom is `None` if the whole is a joint's name, or if
+/// no joint has the first part as its name.
 fn joint_and_freedom<'n>(m: &Mechanism, name: &'n str) -> (&'n str, Option<&'n str>) {
     match (m.joint(name), name.rsplit_once(':')) {
         (None, Some((id, freedom))) if m.joint(id).is_some() => (id, Some(freedom)),
@@ -226,7 +227,7 @@ fn joint_and_freedom<'n>(m: &Mechanism, name: &'n str) -> (&'n str, Option<&'n s
     }
 }
 
-/// The column that moves and those that are held.
+/// Returns the column that moves and those that are held.
 fn drive(
     m: &Mechanism,
     pose: &Pose,
@@ -287,10 +288,11 @@ fn drive(
     Ok((chosen, held))
 }
 
-/// The column named, or the drive, or, where there is none, the first that can move and is not of a ball; and those that are held.
+/// Returns the named column, the drive, or otherwise the first column that can move and does not belong to a ball. Also
+/// returns the columns that are held.
 ///
 /// # Errors
-/// Where there is no such column, or nothing but balls can move.
+/// Returns an error if there is no such column, or if only balls can move.
 pub fn drive_or_any(
     m: &Mechanism,
     pose: &Pose,
@@ -310,10 +312,10 @@ pub fn drive_or_any(
     Ok((first, Vec::new()))
 }
 
-/// Whether a range, as it was written, is in lengths where the drive slides.
+/// Checks that a range, as written, is in lengths if the drive slides.
 ///
 /// # Errors
-/// Where it is in angles.
+/// Returns an error if the range is in angles.
 pub fn lengths_where_it_slides(m: &Mechanism, slides: bool, text: &str) -> Result<(), AskedError> {
     let wrong = slides && (text.contains("deg") || text.contains("rad"));
     let angles = || AskedError::Angles {
@@ -323,7 +325,7 @@ pub fn lengths_where_it_slides(m: &Mechanism, slides: bool, text: &str) -> Resul
     if wrong { Err(angles()) } else { Ok(()) }
 }
 
-/// The name of a column as a drive.
+/// Returns the name of a column as a drive.
 #[must_use]
 pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
     let mut names = names(m, pose).into_iter();
@@ -332,12 +334,12 @@ pub fn name_of(m: &Mechanism, pose: &Pose, column: usize) -> String {
         .map_or_else(String::new, |(_, n)| n)
 }
 
-/// Whether a column can move in a pose.
+/// Returns true if a column can move in a pose.
 fn moves(pose: &Pose, column: usize) -> bool {
     Follower::new(pose.clone(), column, &[]).share() > 1e-6
 }
 
-/// Which joints could be drives in this pose; balls last.
+/// Describes the joints that could be drives in this pose, with balls last.
 fn could(m: &Mechanism, pose: &Pose, names: &[(usize, String)]) -> String {
     let kinds =
         [false, true].map(|ball| names.iter().filter(move |(c, _)| of_ball(pose, *c) == ball));

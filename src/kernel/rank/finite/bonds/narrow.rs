@@ -1,4 +1,4 @@
-//! Groups held to the subgroup that instantaneous motions use.
+//! Restriction of groups to the subgroup that instantaneous motions use.
 
 use super::{BondPart, Bonds, Twist};
 use crate::linalg::echelon::{Echelon, combination, relations};
@@ -8,14 +8,14 @@ use std::collections::{HashMap, VecDeque};
 
 /// A spanning forest of the chains.
 struct Forest {
-    /// For each link the chains from a root to it, each with the direction it is passed in.
+    /// For each link, the chains from a root to it, each with its direction of passage.
     ways: HashMap<LinkId, Vec<(usize, i32)>>,
     /// The chains that close contours.
     closing: Vec<usize>,
 }
 
 impl Bonds<'_> {
-    /// Groups of which every instantaneous motion uses a subgroup alone are held to it.
+    /// Restricts groups of which every instantaneous motion uses only a subgroup.
     pub(super) fn narrow(&mut self) -> bool {
         let motions = relations(self.exact.field(), &self.columns());
         let mut narrowed = false;
@@ -41,7 +41,7 @@ impl Bonds<'_> {
         narrowed
     }
 
-    /// A basis of the twists of a part in some motions, given by the weights of its twists.
+    /// Returns a basis of the twists of a part in some motions, given by the weights of its twists.
     fn used<'a>(
         &self,
         part: &BondPart,
@@ -55,7 +55,7 @@ impl Bonds<'_> {
             .collect()
     }
 
-    /// Columns of the closure matrix of the chains: six rows for each that a spanning forest of them leaves out.
+    /// Returns the columns of the closure matrix of the chains: six rows for each chain outside a spanning forest.
     fn columns(&self) -> Vec<Vec<Residue>> {
         let field = self.exact.field();
         let Forest { ways, closing } = self.forest();

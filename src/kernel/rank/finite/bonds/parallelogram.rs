@@ -1,11 +1,11 @@
-//! Equal bars side by side on parallel hinges: what they carry slides on a circle.
+//! Equal parallel bars on parallel hinges: the link they carry slides on a circle.
 
 use super::{BondPart, Bonds, Chain, Twist};
 use crate::geom::Scalars;
 use crate::linalg::echelon::rank;
 
 impl Bonds<'_> {
-    /// Two bars of a parallelogram become one part that slides on a circle.
+    /// Replaces two bars of a parallelogram by one part that slides on a circle.
     pub(super) fn parallelogram(&mut self) -> bool {
         for b in 0..self.chains.len() {
             for a in 0..b {
@@ -25,7 +25,7 @@ impl Bonds<'_> {
         false
     }
 
-    /// The slide on a circle of two chains that are bars of a parallelogram.
+    /// Returns the slide on a circle of two chains that are bars of a parallelogram.
     fn circle(&self, a: &Chain, b: &Chain) -> Option<BondPart> {
         if a.ends != b.ends || a.is_closed() {
             return None;
@@ -37,7 +37,7 @@ impl Bonds<'_> {
             x.iter().zip(y).map(|(&x, &y)| field.sub(x, y)).collect()
         };
         let (along, across) = (difference(&near, &far), difference(&near, &near_too));
-        // About parallel axes, with equal bars, and not all in a line.
+        // The axes must be parallel, the bars equal, and the points not all on a line.
         let slides = |t: &Twist| t[..3].iter().all(|&x| x == 0);
         let equal = along == difference(&near_too, &far_too);
         let apart = rank(field, [&along[..], &across[..]]) == 2;
@@ -47,7 +47,7 @@ impl Bonds<'_> {
         })
     }
 
-    /// The twists of a chain of two hinges about parallel axes, with the same turn.
+    /// Returns the twists of a chain of two hinges about parallel axes, with the same angular velocity.
     fn hinges(&self, chain: &Chain) -> Option<[Twist; 2]> {
         let [first, second] = &chain.parts[..] else {
             return None;

@@ -7,7 +7,8 @@ use crate::rank::finite::power_series::{Monomials, accumulate};
 /// A power series.
 type Series = Vec<Residue>;
 
-/// The six gaps of a contour, its columns with their directions, where these columns' coordinates `q` are series.
+/// Returns the six gaps of a contour, given by its columns with their directions, if the coordinates `q` of these
+/// columns are series.
 pub(super) fn gaps(
     f: Field,
     twists: &[Vec<Residue>],
@@ -30,11 +31,11 @@ pub(super) fn gaps(
     motion.gaps()
 }
 
-/// A motion whose numbers are series.
+/// A displacement whose entries are series.
 struct SeriesMotion<'a> {
     field: Field,
     monomials: &'a Monomials,
-    /// The turn, row by row.
+    /// The rotation, row by row.
     turn: [[Series; 3]; 3],
     shift: [Series; 3],
 }
@@ -54,7 +55,7 @@ impl<'a> SeriesMotion<'a> {
         }
     }
 
-    /// Goes on by an angle about a twist (ω; v).
+    /// Appends a displacement by an angle about a twist (ω; v).
     fn then(&mut self, t: &[Residue], angle: Series) {
         let (f, monomials) = (self.field, self.monomials);
         let (w, v) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
@@ -90,7 +91,7 @@ impl<'a> SeriesMotion<'a> {
         }
     }
 
-    /// Turn and shift as six series that vanish together with the motion.
+    /// Returns rotation and translation as six series that vanish if and only if the displacement does.
     fn gaps(self) -> Vec<Series> {
         let (f, turn) = (self.field, &self.turn);
         let half = f.inv(f.from_i64(2));
@@ -108,7 +109,7 @@ impl<'a> SeriesMotion<'a> {
     }
 }
 
-/// sin, 1 - cos and angle - sin of an angle about an axis that is no unit vector.
+/// Returns sin, 1 - cos and angle - sin of an angle about an axis that is not a unit vector.
 fn turning(f: Field, monomials: &Monomials, axis: [Residue; 3], angle: Series) -> [Series; 3] {
     let square = f.sum_of_products(axis.map(|x| (x, x)));
     let zero = || vec![0; monomials.count()];
@@ -138,7 +139,7 @@ fn turning(f: Field, monomials: &Monomials, axis: [Residue; 3], angle: Series) -
     series
 }
 
-/// Σ of series times numbers.
+/// Returns a linear combination of series.
 fn combined(f: Field, series: &[Series; 3], by: [Residue; 3]) -> Series {
     let mut out = vec![0; series[0].len()];
     for (s, b) in series.iter().zip(by).filter(|(_, b)| *b != 0) {

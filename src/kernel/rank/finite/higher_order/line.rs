@@ -1,12 +1,12 @@
-//! One motion alone, to high order: power series of one variable, a coefficient after the other.
+//! One motion to high order: power series of one variable, one coefficient after the other.
 //!
-//! A coefficient of a product of two series needs no later ones of its factors, and what the coordinates' coefficients of
-//! order d do to the gaps of that order is J times them. So each order costs one pass along the contours, and a series of
-//! order D some D² products, where expanding anew at every order costs D³.
+//! A coefficient of a product of two series needs no later coefficients of its factors. The coefficients of order d of
+//! the coordinates contribute J times themselves to the gaps of that order. So each order costs one pass along the
+//! contours, and a series of order D about D² products, whereas a new expansion at every order costs D³.
 
 use crate::linalg::modp::{Field, Residue};
 
-/// Products of numbers that it may cost.
+/// Maximum number of products.
 const WORK: usize = 60_000_000;
 
 type Three = [Residue; 3];
@@ -32,20 +32,20 @@ struct FreedomPassed {
     twist: [Three; 4],
     /// ω · ω.
     square: Residue,
-    /// θ(t), sin θ, 1 - cos θ and θ - sin θ, for an axis that is no unit vector.
+    /// θ(t), sin θ, 1 - cos θ and θ - sin θ, for an axis that is not a unit vector.
     angle: Vec<Residue>,
     /// θ'(t).
     speed: Vec<Residue>,
     sine: Vec<Residue>,
     cosine: Vec<Residue>,
     rest: Vec<Residue>,
-    /// Rows of the turn before it.
+    /// Rows of the rotation before it.
     turn: [[Vec<Residue>; 3]; 3],
     /// Those rows times v and times ω × (ω × v).
     along: [[Vec<Residue>; 3]; 2],
 }
 
-/// A turn and a shift of one order.
+/// A rotation and a translation of one order.
 #[derive(Clone, Copy)]
 struct SeriesTerm {
     turn: [Three; 3],
@@ -74,7 +74,7 @@ impl FreedomPassed {
         }
     }
 
-    /// Puts the displacement before it on record, of the next order.
+    /// Records the displacement before it, of the next order.
     fn enter(&mut self, f: Field, before: &SeriesTerm) {
         for (i, row) in before.turn.iter().enumerate() {
             for (series, &x) in self.turn[i].iter_mut().zip(row) {
@@ -85,7 +85,8 @@ impl FreedomPassed {
         }
     }
 
-    /// Adds to the displacement before it what this freedom does to it at order `d`, its angle's coefficient being `x`.
+    /// Adds the effect of this freedom at order `d` to the displacement before it, with `x` as the coefficient of its
+    /// angle.
     fn pass(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
         let turns = self.twist[0] != [0; 3];
@@ -123,7 +124,7 @@ impl FreedomPassed {
         }
     }
 
-    /// What a coefficient of order `d` that was taken for 0 adds, here and to all that comes after.
+    /// Adds the effect of a coefficient of order `d` that was first assumed to be 0, here and in all later terms.
     fn mend(&mut self, f: Field, d: usize, x: Residue, at: &mut SeriesTerm) {
         let x = if self.forward { x } else { f.neg(x) };
         for (i, row) in at.turn.iter().enumerate() {
@@ -157,7 +158,7 @@ impl SeriesTerm {
         shift: [0; 3],
     };
 
-    /// The six gaps.
+    /// Returns the six gaps.
     fn gaps(&self, f: Field) -> [Residue; 6] {
         let half = f.inv(f.from_i64(2));
         let skew = |i: usize, j: usize| f.mul(half, f.sub(self.turn[i][j], self.turn[j][i]));
@@ -166,22 +167,24 @@ impl SeriesTerm {
     }
 }
 
-/// What comes of a motion that begins with some speeds.
+/// Outcome of a motion that begins with some speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Line {
-    /// The order at which it is stopped; none where it is not up to the order that it was expanded to.
+    /// The order at which it is stopped, or `None` if it is not stopped within the expansion.
     pub stopped: Option<usize>,
-    /// The order up to which it was expanded, or that stops it.
+    /// The order of the expansion, or the order that stops it.
     pub order: usize,
-    /// The order by which all coordinates have begun to move that ever do up to that order.
+    /// The order by which every coordinate has begun to move that moves at all within that order.
     pub begun: usize,
-    /// What stops it: the gap in the first equation that has one, times that power of t.
+    /// The obstruction: the gap in the first equation that has one, as the coefficient of that power of t.
     pub value: Residue,
 }
 
-/// A motion that begins with these speeds, J x = 0, expanded until it is stopped, to an order or as far as the work allows; the free
-/// coordinates are speed times t and `bent`, likewise J x = 0, times t². Returns with it the coordinates of the columns as series, from
-/// t¹ on, as far as it was expanded without a stop.
+/// Expands a motion that begins with these speeds, J x = 0, until it is stopped, to an order, or as far as the work
+/// allows.
+///
+/// The free coordinates are speed times t plus `bent` times t², which also satisfies J x = 0. Also returns the
+/// coordinates of the columns as series from t¹ on, up to the order before a stop.
 ///
 /// # Complexity
 /// 12 D² products for each freedom that a contour passes, up to order D.
@@ -253,7 +256,7 @@ pub(super) fn line(
     (out, coordinates)
 }
 
-/// What the equations that J does not solve are to second order, for a motion that begins with these speeds.
+/// Returns the equations that J does not solve to second order, for a motion that begins with these speeds.
 pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
     let f = of.field;
     let mut walks = at_rest(of);
@@ -263,7 +266,7 @@ pub(super) fn second(of: &Solved<'_>, speeds: &[Residue]) -> Vec<Residue> {
     left.map(|row| f.dot(row, &gaps)).collect()
 }
 
-/// The contours before anything moves.
+/// Returns the contours before any motion.
 fn at_rest(of: &Solved<'_>) -> Vec<Vec<FreedomPassed>> {
     let f = of.field;
     let mut at = SeriesTerm::ZERO;
@@ -277,7 +280,7 @@ fn at_rest(of: &Solved<'_>) -> Vec<Vec<FreedomPassed>> {
     walks.map(|walk| walk.iter().map(step).collect()).collect()
 }
 
-/// The gaps of order `d`, six a contour, with these coefficients of the coordinates.
+/// Returns the gaps of order `d`, six per contour, with these coefficients of the coordinates.
 fn pass(
     f: Field,
     walks: &mut [Vec<FreedomPassed>],
@@ -296,7 +299,7 @@ fn pass(
     gaps
 }
 
-/// The vector product.
+/// Returns the vector product.
 pub(super) fn cross(f: Field, a: Three, b: Three) -> Three {
     let minor = |i: usize, j: usize| f.sub(f.mul(a[i], b[j]), f.mul(a[j], b[i]));
     [minor(1, 2), minor(2, 0), minor(0, 1)]
@@ -306,7 +309,7 @@ fn dot(f: Field, a: Three, b: Three) -> Residue {
     f.sum_of_products(a.into_iter().zip(b))
 }
 
-/// The last coefficient of a product of two series of equal length: each of one with that of the other which is as far from its end.
+/// Returns the last coefficient of a product of two series of equal length, by convolution.
 fn convolved(f: Field, a: &[Residue], b: &[Residue]) -> Residue {
     f.sum_of_products(a.iter().copied().zip(b.iter().rev().copied()))
 }

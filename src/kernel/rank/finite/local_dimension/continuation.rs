@@ -1,25 +1,27 @@
-//! Whether a motion goes on, as far as what is shaky gapes.
+//! Tests whether a motion continues, up to distances at which shaky poses show a gap.
 //!
-//! A shaky pose of order n leaves a gap that grows with the nth power of the way: 10^-23 at a fifth of a radian for order 32,
-//! which no double sees. At a radian and more all orders are seen alike. So a motion is followed by predictor and corrector
-//! [Allgower & Georg 1990, ch. 2] until some coordinate has gone that far, past dead points and back if the way leads there.
-//! Coordinates are counted from one pose, so that gaps do not add up unseen.
+//! A shaky pose of order n leaves a gap that grows with the nth power of the path length. For order 32 it is 10^-23 at
+//! a fifth of a radian, which no double resolves. At a radian and more, all orders are visible. So a motion is followed
+//! by predictor and corrector [Allgower & Georg 1990, ch. 2] until some coordinate has gone that far. It may pass dead
+//! points and turn back on the way. Coordinates are measured from one pose, so that gaps do not accumulate unseen.
 
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::{DimensionSearch, along, norm};
 use ozols_dense::{Matrix, svd};
 
-/// How far a motion must go on, by the coordinate that moves most from step to step: radians, or fractions of the size.
+/// Distance that a motion must cover, by the coordinate that moves most from step to step: radians, or fractions of the
+/// size.
 const REACH: f64 = 2.0;
 /// The longest step.
 const LONGEST: f64 = 0.12;
-/// A shorter step is none.
+/// Minimum step length.
 const SHORTEST: f64 = 0.004;
 /// The largest correction, as a share of its step.
 const CORRECTION: f64 = 0.5;
-/// Ends with a smaller share in a direction do not lead there: what is stopped by a high order is off by a tenth at most.
+/// Minimum share of an end point in a direction to count as leading there. Motions stopped by a high order are off by
+/// at most a tenth.
 const APART: f64 = 0.3;
-/// Directions tried from a pose before it counts as one that is not left.
+/// Number of directions tried from a pose before it counts as isolated.
 const TRIES: usize = 3;
 
 fn largest(q: &[f64]) -> f64 {
@@ -27,8 +29,8 @@ fn largest(q: &[f64]) -> f64 {
 }
 
 impl DimensionSearch {
-    /// Whether a motion in a random direction of some orthonormal columns, all being motions, goes on; with `apart`, whether
-    /// [all of them do](Self::lead_apart). `None` where the budget is spent.
+    /// Returns whether a motion in a random direction of some orthonormal columns, all being motions, continues. With
+    /// `apart`, returns whether [all of them do](Self::lead_apart). Returns `None` if the budget is spent.
     pub(super) fn all_go_on(&mut self, pose: &Pose, span: &Matrix, apart: bool) -> Option<bool> {
         let n = span.ncols();
         if apart && n > 1 {
@@ -44,8 +46,9 @@ impl DimensionSearch {
         Some(false)
     }
 
-    /// Returns whether motions in random directions of some orthonormal columns go on and lead to coordinates in as many
-    /// independent directions: what is stopped turns into one of the others on the way. `None` where the budget is spent.
+    /// Returns whether motions in random directions of some orthonormal columns continue and lead to coordinates in as
+    /// many independent directions. A stopped motion turns into one of the others along the path. Returns `None` if the
+    /// budget is spent.
     fn lead_apart(&mut self, pose: &Pose, span: &Matrix) -> Option<bool> {
         let n = span.ncols();
         let here = vec![0.0; span.nrows()];
@@ -65,11 +68,11 @@ impl DimensionSearch {
         Some(false)
     }
 
-    /// Whether a motion goes on from closed coordinates in a direction, J leaving at least so many motions all along it;
-    /// `None` where the budget is spent.
+    /// Returns whether a motion continues from closed coordinates in a direction, with J leaving at least `least`
+    /// motions all along it. Returns `None` if the budget is spent.
     ///
     /// # Complexity
-    /// Some twenty closings and as many decompositions of J.
+    /// About twenty closures and as many decompositions of J.
     pub(super) fn goes_on(
         &mut self,
         pose: &Pose,
@@ -80,7 +83,8 @@ impl DimensionSearch {
         Some(self.end_of(pose, from, direction, least)?.is_some())
     }
 
-    /// Returns where a motion has gone that goes on as [`Self::goes_on`] asks; the inner `None` where it does not.
+    /// Returns the end point of a motion that continues as [`Self::goes_on`] requires. The inner `None` means that it
+    /// does not.
     fn end_of(
         &mut self,
         pose: &Pose,
@@ -96,7 +100,8 @@ impl DimensionSearch {
             };
             let next = loop {
                 let guess: Vec<f64> = q.iter().zip(&tangent).map(|(q, t)| q + step * t).collect();
-                // Across the way one comes from alone: all else is corrected as little as possible.
+                // This equation only fixes the step along the tangent. Everything else is corrected as little as
+                // possible.
                 let size = norm(&tangent);
                 let row: Vec<f64> = tangent.iter().map(|t| t / size).collect();
                 let beside = |x: &[f64]| {
@@ -127,8 +132,8 @@ impl DimensionSearch {
     }
 }
 
-/// The motion at some coordinates that is nearest to a direction, its largest coordinate 1; none where J leaves fewer motions
-/// than so many.
+/// Returns the motion at some coordinates that is nearest to a direction, scaled to a largest coordinate of 1. Returns
+/// `None` if J leaves fewer than `least` motions.
 fn tangent(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f64>> {
     let svd = svd(&pose.jacobian(q))?;
     let scale = svd.values.first().map_or(1.0, |s| s.max(1.0));

@@ -1,8 +1,8 @@
 //! Intersection numbers on a product of lines, one for each freedom: sums of products of classes h with h² = 0.
 
-/// Most freedoms.
+/// Maximum number of freedoms.
 pub(super) const MOST: usize = 64;
-/// Most terms of a class.
+/// Maximum number of terms of a class.
 const TERMS: usize = 100_000;
 
 /// The two arcs of a contour, each a set of freedoms.
@@ -17,7 +17,7 @@ impl Arcs {
         Arcs { one, other }
     }
 
-    /// How many freedoms there are in both.
+    /// Returns the number of freedoms in both arcs.
     pub(super) fn count(&self) -> usize {
         self.one.len() + self.other.len()
     }
@@ -28,7 +28,7 @@ impl Arcs {
     }
 }
 
-/// A class: how often each product of different h is in it, by their sets.
+/// A class: the multiplicity of each product of different h, by their sets.
 #[derive(Debug, Clone)]
 pub(super) struct Class(Vec<(u64, usize)>);
 
@@ -37,7 +37,7 @@ impl Class {
         Class(vec![(0, 1)])
     }
 
-    /// Each product once, with how often it is there in all.
+    /// Merges equal products and adds their multiplicities.
     fn collected(mut terms: Vec<(u64, usize)>) -> Class {
         terms.sort_unstable_by_key(|t| t.0);
         terms.dedup_by(|next, kept| {
@@ -50,7 +50,7 @@ impl Class {
         Class(terms)
     }
 
-    /// Times a sum of h.
+    /// Multiplies by a sum of h.
     fn times(&self, sum: &[usize]) -> Class {
         let mut terms = Vec::with_capacity(self.0.len() * sum.len());
         for &(set, often) in &self.0 {
@@ -60,7 +60,8 @@ impl Class {
         Class::collected(terms)
     }
 
-    /// Times Σ S^i T^j over i + j = n, S and T the sums over two arcs; none where that has too many terms.
+    /// Multiplies by Σ S^i T^j over i + j = n, with S and T the sums over two arcs. Returns `None` if the result has
+    /// too many terms.
     pub(super) fn times_all(self, arcs: &Arcs, n: usize) -> Option<Class> {
         // With P_n that product, P_n = S P_(n - 1) + T^n P_0.
         let mut other = self.clone();
@@ -75,7 +76,7 @@ impl Class {
         Some(all)
     }
 
-    /// Without the products from which more than `cut` freedoms are missing that no later arcs have.
+    /// Removes the products that lack more than `cut` freedoms of no later arc.
     pub(super) fn without_lost<'a>(
         mut self,
         later: impl Iterator<Item = &'a Arcs>,
@@ -89,7 +90,7 @@ impl Class {
         self
     }
 
-    /// The number of points that it has in common with `cut` general classes of all h; none where it is too large to tell.
+    /// Returns the number of points in common with `cut` general classes of all h, or `None` if it is too large.
     pub(super) fn number(&self, freedoms: usize, cut: usize) -> Option<usize> {
         let missing = |set: u64| (everything(freedoms) & !set).count_ones() as usize;
         let terms = self.0.iter().filter(|(set, _)| missing(*set) == cut);

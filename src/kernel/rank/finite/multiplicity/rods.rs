@@ -1,7 +1,8 @@
 //! A platform on rods that end in balls.
 //!
-//! Its displacements are the points of Study's quadric in seven dimensions, and each rod keeps it on another quadric [Husty 1996]:
-//! so the poses that 6 - n of them allow meet n - 1 hyperplanes and one quadric more in 2^(8 - n) points at most.
+//! Its displacements are the points of Study's quadric in seven dimensions, and each rod keeps it on another quadric
+//! [Husty 1996]. So the poses that 6 - n of them allow meet n - 1 hyperplanes and one more quadric in at most 2^(8 - n)
+//! points.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -10,10 +11,10 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::rank::finite::displacement_group::spatial_twists;
 
-/// The order beyond which nothing stops a platform on rods; none for other mechanisms.
+/// Returns the highest order that can stop a platform on rods, or `None` for other mechanisms.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub(super) fn bound(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -40,7 +41,8 @@ pub(super) fn bound(
     Ok(power.filter(|_| platform).map(|p| 1 << p))
 }
 
-/// Whether two joints turn about a point each, so that a link between them keeps those points apart and does nothing else.
+/// Returns true if two joints turn about one point each, so that a link between them only keeps those points at a fixed
+/// distance.
 fn is_rod(
     exact: &ExactField,
     mechanism: &Mechanism,

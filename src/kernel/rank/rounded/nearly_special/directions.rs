@@ -1,4 +1,4 @@
-//! Directions that are nearly parallel, square or coplanar to directions met before.
+//! Directions that are nearly parallel, perpendicular or coplanar to earlier directions.
 
 use super::relation::Relation;
 use crate::geom::exact_vector::{ExactVector, across, cross, is_zero};
@@ -6,25 +6,25 @@ use crate::geom::expr::Expr;
 use crate::geom::vector::{self, Vector, dot, length, real, unit};
 use crate::model::mechanism::JointId;
 
-/// Two directions with a smaller sine give no plane.
+/// Minimum sine between two directions that define a plane.
 const PLANE: f64 = 0.1;
 
-/// A direction met before.
+/// An earlier direction.
 struct Known {
     exact: ExactVector,
     unit: Vector,
-    /// The joint it is of; none for the global axes and the normal of a plane.
+    /// The joint it belongs to, or `None` for the global axes and the normal of a plane.
     joint: Option<JointId>,
 }
 
-/// Directions met so far, exact.
+/// The exact directions collected so far.
 pub(super) struct Directions {
     known: Vec<Known>,
-    /// Directions are turned by no more. `[rad]`
+    /// Maximum turn of a direction. `[rad]`
     angle: f64,
 }
 
-/// What a direction becomes, where it changes.
+/// The new direction, if it changes.
 pub(super) type Placed = Option<(ExactVector, Relation, Option<JointId>)>;
 
 fn sine(a: Vector, b: Vector) -> f64 {
@@ -32,7 +32,7 @@ fn sine(a: Vector, b: Vector) -> f64 {
 }
 
 impl Directions {
-    /// The global axes, after the normal of the plane of motion where there is one.
+    /// Creates a collection of the global axes, after the normal of the plane of motion if there is one.
     pub(super) fn new(angle: f64, normal: Option<&ExactVector>) -> Directions {
         let axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|a| a.map(Expr::from));
         let known = normal.cloned().into_iter().chain(axes);
@@ -48,7 +48,7 @@ impl Directions {
         }
     }
 
-    /// The exact direction that `d` of a joint is within reach of, with how it was found.
+    /// Returns the exact direction that the direction `d` of a joint is within reach of, with the relation used.
     pub(super) fn place(&mut self, d: &ExactVector, joint: JointId) -> Placed {
         let v = unit(real(d));
         if let Some((k, _)) = self
@@ -71,7 +71,7 @@ impl Directions {
         found.filter(|(exact, ..)| !is_zero(&cross(exact, d)))
     }
 
-    /// Square to two known directions, or to one.
+    /// Returns the direction perpendicular to two known directions, or to one.
     fn square(&self, d: &ExactVector, v: Vector) -> Placed {
         let near = |k: &&Known| dot(k.unit, v).abs() <= self.angle;
         let square: Vec<&Known> = self.known.iter().filter(near).collect();
@@ -85,7 +85,7 @@ impl Directions {
         Some((exact, Relation::Square, named))
     }
 
-    /// In the plane of two known directions of joints.
+    /// Returns the direction in the plane of two known directions of joints.
     fn in_plane(&self, d: &ExactVector, v: Vector) -> Placed {
         let own: Vec<&Known> = self.known.iter().filter(|k| k.joint.is_some()).collect();
         for (n, a) in own.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Lines that are nearly coaxial or concurrent, and centres of joints near where they meet.
+//! Lines that are nearly coaxial or concurrent, and centres of joints near their crossings.
 
 use super::relation::Relation;
 use crate::geom::exact_vector::{ExactVector, add_scaled, cross, foot, is_zero, sub};
@@ -8,16 +8,16 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{JointId, Mechanism};
 use std::cmp::Reverse;
 
-/// Lines with a smaller sine between them are not made to meet: where is too uncertain.
+/// Minimum sine between two lines that are made to meet. Below it, the position of the crossing is too uncertain.
 const SKEW: f64 = 1e-2;
 
-/// Gaps that doubles leave.
+/// Gaps caused by rounding of doubles.
 const DOUBLE: f64 = 1e-13;
 
-/// What of a joint's place matters.
+/// The relevant part of a joint's position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PlaceKind {
-    /// Nothing: it only slides.
+    /// None: the joint only slides.
     Nowhere,
     /// The line of its axis.
     Line,
@@ -25,7 +25,7 @@ pub(super) enum PlaceKind {
     Centre,
 }
 
-/// What of a joint of a type matters.
+/// Returns the relevant part of the position of a joint type.
 pub(super) fn kind(joint_type: &JointType) -> PlaceKind {
     let turns = |f: &&Freedom| f.turns() || **f == Freedom::Screw;
     let turning: Vec<&Freedom> = joint_type.freedoms().iter().filter(turns).collect();
@@ -38,12 +38,12 @@ pub(super) fn kind(joint_type: &JointType) -> PlaceKind {
 
 /// Joints on one line, or with one centre.
 struct AlignedJoints {
-    /// The first is the one the others are compared with.
+    /// The joints; the first is the reference for the others.
     joints: Vec<JointId>,
     point: ExactVector,
-    /// Direction of the line; none for a centre.
+    /// Direction of the line, or `None` for a centre.
     along: Option<ExactVector>,
-    /// Whether it must stay: it passes through a point that others share.
+    /// Whether it must stay, because it passes through a point that others share.
     fixed: bool,
 }
 
@@ -56,7 +56,7 @@ impl AlignedJoints {
         }
     }
 
-    /// The point of it that is nearest to `p`.
+    /// Returns its point nearest to `p`.
     fn nearest(&self, p: &ExactVector) -> Option<ExactVector> {
         match &self.along {
             Some(a) => foot(p, &self.point, a),
@@ -73,14 +73,15 @@ impl AlignedJoints {
     }
 }
 
-/// Where a joint's point goes, and why.
+/// New position of a joint's point, and the reason.
 pub(super) struct Put {
     pub(super) joint: JointId,
     pub(super) point: ExactVector,
     pub(super) relations: Vec<(Relation, Option<JointId>)>,
 }
 
-/// Puts lines and centres that are within `near` of each other exactly there, each point moved square to its line.
+/// Moves lines and centres that are within `near` of each other to exact coincidence, each point perpendicular to its
+/// line.
 pub(super) fn places(m: &Mechanism, near: f64) -> Vec<Put> {
     let mut of = gather(m, near);
     let mut met: Vec<(JointId, JointId)> = Vec::new();
@@ -119,7 +120,7 @@ pub(super) fn places(m: &Mechanism, near: f64) -> Vec<Put> {
     out
 }
 
-/// Lines and centres, those that coincide as one.
+/// Collects lines and centres, with coincident ones merged.
 fn gather(m: &Mechanism, near: f64) -> Vec<AlignedJoints> {
     let mut of: Vec<AlignedJoints> = Vec::new();
     for (j, joint) in m.joints_with_ids() {
@@ -130,7 +131,7 @@ fn gather(m: &Mechanism, near: f64) -> Vec<AlignedJoints> {
         };
         let point = &joint.frame.point;
         let at = real(point);
-        // Doubles first: exact products take a hundred times as long.
+        // Doubles come first, because exact products take a hundred times as long.
         let same = |p: &&mut AlignedJoints| {
             p.distance(at) <= near
                 && match (&p.along, along) {
@@ -152,7 +153,7 @@ fn gather(m: &Mechanism, near: f64) -> Vec<AlignedJoints> {
     of
 }
 
-/// The centres, and where lines nearly meet.
+/// Returns the centres, and the near crossings of lines.
 fn candidates(of: &[AlignedJoints], near: f64) -> Vec<ExactVector> {
     let mut out: Vec<ExactVector> = Vec::new();
     out.extend(
@@ -168,7 +169,7 @@ fn candidates(of: &[AlignedJoints], near: f64) -> Vec<ExactVector> {
     out
 }
 
-/// The point of line `a` that is nearest to line `b`, to a double, where the two nearly meet.
+/// Returns the point of line `a` that is nearest to line `b`, to double precision, if the two nearly meet.
 fn crossing(a: &AlignedJoints, b: &AlignedJoints, near: f64) -> Option<ExactVector> {
     let (along, other) = (a.along.as_ref()?, b.along.as_ref()?);
     let (u, w) = (real(along), unit(real(other)));
@@ -178,7 +179,7 @@ fn crossing(a: &AlignedJoints, b: &AlignedJoints, near: f64) -> Option<ExactVect
     if square.sqrt() < SKEW * length(u) || dot(off, normal).abs() > near * square.sqrt() {
         return None;
     }
-    // Roots that meet to a double meet: no decimal could say where.
+    // Roots that meet to double precision do meet; no decimal could give the position.
     let rational = [&a.point, &b.point, along, other]
         .into_iter()
         .flatten()
@@ -195,10 +196,10 @@ fn through(of: &[AlignedJoints], p: Vector, near: f64) -> Vec<usize> {
     (0..of.len()).filter(near).collect()
 }
 
-/// Moves what is near a point there; what stays already decides where that is.
+/// Moves everything near a point there. Fixed elements determine its position.
 fn meet(of: &mut [AlignedJoints], x: &ExactVector, near: f64, met: &mut Vec<(JointId, JointId)>) {
     let mut here = through(of, real(x), near);
-    // A fixed centre first, then a fixed line, then the others.
+    // Sorted as fixed centres, then fixed lines, then the others.
     here.sort_by_key(|&i| (!of[i].fixed, of[i].along.is_some()));
     let Some((&first, rest)) = here.split_first().filter(|(_, rest)| !rest.is_empty()) else {
         return;
@@ -242,7 +243,7 @@ mod tests {
         }
     }
 
-    /// Two lines, one `apart` above the other, are as far from each other as that, whatever the angle between them.
+    /// Two lines, one `apart` above the other, have that distance for any angle between them.
     #[test]
     fn lines_cross_by_their_distance_whatever_their_angle() {
         let near = 1e-3;

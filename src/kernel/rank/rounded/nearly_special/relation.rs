@@ -1,15 +1,15 @@
-//! How far a joint may be from what it nearly is, and what that is.
+//! Maximum deviation of a joint from a special position, and the kind of that position.
 
 use crate::format::significant;
 use crate::model::mechanism::{JointId, Mechanism};
 use itertools::Itertools;
 
-/// How far a joint may be from what it nearly is.
+/// Maximum deviation of a joint from a special position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
-    /// Its point or line, in the file's unit of length.
+    /// Deviation of its point or line, in the file's unit of length.
     pub length: f64,
-    /// Its axes `[rad]`.
+    /// Deviation of its axes `[rad]`.
     pub angle: f64,
 }
 
@@ -24,22 +24,22 @@ impl Reach {
     }
 }
 
-/// What a joint nearly is, to another joint where there is one.
+/// Special position of a joint, relative to another joint if there is one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Relation {
-    /// A coordinate is all but zero.
+    /// A coordinate is almost zero.
     Zero,
-    /// Its axis parallel to another, or to a global axis.
+    /// Its axis is parallel to another, or to a global axis.
     Parallel,
-    /// Its axis square to another.
+    /// Its axis is perpendicular to another.
     Square,
-    /// Its axis in one plane with two others.
+    /// Its axis is in one plane with two others.
     InPlane,
-    /// Its axis the same line as another.
+    /// Its axis is the same line as another.
     Coaxial,
-    /// Its axis or centre through a point common with another.
+    /// Its axis or centre passes through a common point with another.
     Meeting,
-    /// Its centre the same point as another.
+    /// Its centre is the same point as another.
     Concentric,
 }
 
@@ -48,16 +48,16 @@ pub enum Relation {
 pub struct NearJoint {
     /// The joint.
     pub joint: JointId,
-    /// How far its line or centre is off, in the file's unit of length.
+    /// Deviation of its line or centre, in the file's unit of length.
     pub shift: f64,
-    /// How far its axes are off `[rad]`.
+    /// Deviation of its axes `[rad]`.
     pub turn: f64,
-    /// What it nearly is, and to which joint.
+    /// The special positions, and the joints they refer to.
     pub relations: Vec<(Relation, Option<JointId>)>,
 }
 
 impl NearJoint {
-    /// Returns how far it is off: "0.002 degrees and 0.13 mm".
+    /// Returns the deviation: "0.002 degrees and 0.13 mm".
     #[must_use]
     pub fn far(&self, m: &Mechanism) -> String {
         let turn = (self.turn > 0.0).then(|| format!("{} degrees", small(self.turn.to_degrees())));
