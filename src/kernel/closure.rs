@@ -1,6 +1,7 @@
-//! Loop closure: which contours a mechanism has, and the matrix that says how joint speeds must agree round them.
+//! Loop closure: the contours of a mechanism, and the matrix of conditions on joint speeds around them.
 //!
-//! The loop-closure matrix J: rows of closed contours, then one row per coupling; one column per joint freedom.
+//! The loop-closure matrix J has the rows of the closed contours, then one row per coupling. It has one column per
+//! joint freedom.
 
 pub mod contour;
 pub mod coupling;
@@ -36,7 +37,7 @@ pub struct Column<N> {
 /// The row of a coupling: entries at the columns of the two freedoms.
 #[derive(Debug, Clone)]
 pub struct CouplingRow<N> {
-    /// The columns, with the entry there.
+    /// The two columns with their entries.
     pub entries: [(usize, N); 2],
 }
 
@@ -47,13 +48,13 @@ pub struct Part<N> {
     pub joints: Vec<JointId>,
     /// Their J.
     pub closure: Closure<N>,
-    /// Which contours of the state are theirs.
+    /// Indices of the contours of the state that belong to these joints.
     pub contours: Vec<usize>,
-    /// Which couplings of the state are theirs.
+    /// Indices of the couplings of the state that belong to these joints.
     pub couplings: Vec<usize>,
 }
 
-/// J of a state, kept as its columns, contours and couplings: entry blocks are ± the twist where the contour passes the
+/// J of a state, stored as its columns, contours and couplings. An entry block is ± the twist if the contour passes the
 /// joint.
 #[derive(Debug, Clone)]
 pub struct Closure<N> {
@@ -67,9 +68,9 @@ pub struct Closure<N> {
     pub columns: Vec<Column<N>>,
     /// The couplings of the state, in file order.
     pub couplings: Vec<CouplingRow<N>>,
-    /// Where the joints are and how far apart, in real numbers.
+    /// Positions of the joints and their distances, in real numbers.
     pub extent: Option<Extent>,
-    /// Joints whose freedoms out of the plane were left out, with how many (planar mode only).
+    /// Joints with omitted freedoms out of the plane, and the number of these (planar mode only).
     pub left_out: Vec<(JointId, usize)>,
 }
 
@@ -77,7 +78,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     /// Builds J of a state in a number system.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the number system.
+    /// Returns an error if a coordinate has no value in the number system.
     pub fn new<S: Scalars<Number = N>>(
         s: &S,
         mechanism: &Mechanism,
@@ -86,10 +87,10 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         Self::with_contours(s, mechanism, state, contour_basis(mechanism, state))
     }
 
-    /// Builds J for contours that the caller has already, such as those of a mechanism with the same links and joints.
+    /// Builds J for given contours, such as those of a mechanism with the same links and joints.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the number system.
+    /// Returns an error if a coordinate has no value in the number system.
     pub fn with_contours<S: Scalars<Number = N>>(
         s: &S,
         mechanism: &Mechanism,
@@ -167,19 +168,19 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         }
     }
 
-    /// Number of rows, 6k + c for c couplings (3k + c in a plane).
+    /// Returns the number of rows, 6k + c for c couplings (3k + c in a plane).
     #[must_use]
     pub fn rows(&self) -> usize {
         self.contour_rows() + self.couplings.len()
     }
 
-    /// Number of rows of the contours, 6k (3k in a plane).
+    /// Returns the number of rows of the contours, 6k (3k in a plane).
     #[must_use]
     pub fn contour_rows(&self) -> usize {
         self.dim * self.contours.len()
     }
 
-    /// The contour rows of column `c` written out in full, for the chosen contours in the given order.
+    /// Returns the dense contour rows of column `c`, for the chosen contours in the given order.
     pub fn dense_column<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -202,7 +203,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         out
     }
 
-    /// J written out, as a list of columns.
+    /// Returns the dense J, as a list of columns.
     pub fn dense<S: Scalars<Number = N>>(&self, s: &S) -> Vec<Vec<N>> {
         let all: Vec<usize> = (0..self.contours.len()).collect();
         let mut columns: Vec<Vec<N>> = (0..self.columns.len())
@@ -219,8 +220,8 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         columns
     }
 
-    /// For each column, the twist it gives a link when the joint moves at unit speed along the path from the frame:
-    /// rows of "the motion of `link`", one list of `dim` numbers a column.
+    /// Returns, for each column, the twist of a link when the joint moves at unit speed along the path from the frame.
+    /// These are rows of "the motion of `link`", one list of `dim` numbers per column.
     pub fn link_motion<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -230,7 +231,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         self.motion_along(s, &path_from_frame(mechanism, self.state, link))
     }
 
-    /// The same of several links.
+    /// Returns the motions of several links, as `link_motion` does for one.
     pub(crate) fn link_motions<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -243,7 +244,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
             .collect()
     }
 
-    /// What each column gives the link at the end of a path.
+    /// Returns the contribution of each column to the motion of the link at the end of a path.
     fn motion_along<S: Scalars<Number = N>>(&self, s: &S, path: &[(JointId, bool)]) -> Vec<Vec<N>> {
         self.columns
             .iter()
@@ -260,7 +261,7 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
     }
 }
 
-/// The rows of a state's couplings.
+/// Returns the rows of a state's couplings.
 fn coupling_rows<N: Clone + Default + PartialEq, S: Scalars<Number = N>>(
     s: &S,
     mechanism: &Mechanism,
@@ -274,7 +275,7 @@ fn coupling_rows<N: Clone + Default + PartialEq, S: Scalars<Number = N>>(
                 .iter()
                 .position(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
         });
-        // The importer sees to it that coupled freedoms are there.
+        // The importer ensures that coupled freedoms exist.
         if let [Some(a), Some(b)] = at {
             let first = s.eval(&coefficient(mechanism, coupling))?;
             rows.push(CouplingRow {

@@ -1,4 +1,4 @@
-//! Independent contours: those the file names, completed to a minimum cycle basis.
+//! Independent contours: those named in the file, completed to a minimum cycle basis.
 
 use crate::closure::tree::{forest, tied};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -8,17 +8,17 @@ use petgraph::visit::EdgeRef;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// A closed walk through joints; `forward` where the walk goes from `links[0]` to `links[1]` of the joint.
+/// A closed walk through joints. `forward` is true if the walk goes from `links[0]` to `links[1]` of the joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Contour {
-    /// The joints in order round the contour, with the direction they are passed in.
+    /// The joints in order around the contour, with their direction of passage.
     pub joints: Vec<(JointId, bool)>,
-    /// The links in order; `links[i]` is left through `joints[i]`.
+    /// The links in order; the walk leaves `links[i]` through `joints[i]`.
     pub links: Vec<LinkId>,
 }
 
 impl Contour {
-    /// The name the field uses: the links in order, as in `0-1-2-3`.
+    /// Returns the name used in the field: the links in order, as in `0-1-2-3`.
     #[must_use]
     pub fn name(&self, mechanism: &Mechanism) -> String {
         self.links
@@ -27,7 +27,7 @@ impl Contour {
             .join("-")
     }
 
-    /// The direction a joint is passed in, if it is part of the contour.
+    /// Returns the direction of passage of a joint, if it is part of the contour.
     #[must_use]
     pub fn direction(&self, joint: JointId) -> Option<bool> {
         self.joints
@@ -37,7 +37,8 @@ impl Contour {
     }
 }
 
-/// Puts a set of joints that forms one closed walk in order, starting at its first joint; `None` if it is not one.
+/// Returns a set of joints that forms one closed walk in order, starting at its first joint. Returns `None` if it does
+/// not form one.
 #[must_use]
 pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour> {
     let mut left: Vec<JointId> = joints.to_vec();
@@ -46,7 +47,7 @@ pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour>
     }
     let first = left.remove(0);
     let [start, mut at] = mechanism.joints[first].links;
-    // Walk on through the file's second joint where the order given allows it.
+    // Prefers the second joint of the file if the given order allows it.
     if left.first().is_some_and(|&j| {
         mechanism.joints[j].links.contains(&start) && !mechanism.joints[j].links.contains(&at)
     }) {
@@ -75,12 +76,12 @@ pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour>
     })
 }
 
-/// A basis of the contours of a state: the contours the file names, then those of the free state, each completed by
-/// the shortest independent contours (a minimum cycle basis where the file names none).
+/// Returns a basis of the contours of a state. It contains the contours named in the file, then those of the free
+/// state, each completed by the shortest independent contours. If the file names none, this is a minimum cycle basis.
 ///
 /// # Complexity
-/// O(n·m log m) to find the n·m candidates, O(m/64 · k) for each that is looked at; those are the ones no longer than
-/// the longest contour of the basis, for n links, m joints, k contours.
+/// O(n·m log m) to find the n·m candidates, for n links, m joints and k contours. Each candidate examined costs O(m/64
+/// · k). Only candidates no longer than the longest contour of the basis are examined.
 ///
 /// # Sources
 /// Horton, "A polynomial-time algorithm to find the shortest cycle basis of a graph", SIAM J. Comput. 16 (1987).
@@ -99,7 +100,7 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
         rows: Vec::new(),
     };
     let mut contours = Vec::new();
-    // The contours of the free state come first, so that what a state adds is at the end.
+    // The contours of the free state come first, so that those added by a state are at the end.
     let states: &[StateId] = if state == StateId::FREE {
         &[StateId::FREE]
     } else {
@@ -186,8 +187,8 @@ fn shortest_cycles(
     mechanism: &Mechanism,
     present: &[JointId],
 ) -> impl Iterator<Item = Vec<JointId>> {
-    // A small distinct excess on each weight makes shortest paths unique, which Horton's theorem needs; it also makes
-    // the choice among equals follow the order of the file.
+    // A small distinct excess on each weight makes shortest paths unique, which Horton's theorem requires. It also
+    // makes the choice among equal ones follow the order of the file.
     const UNIT: u64 = 1 << 44;
     let weighed = |joint: JointId| {
         let i = present.partition_point(|&j| j < joint) as u64 + 1;
@@ -197,7 +198,7 @@ fn shortest_cycles(
             length: UNIT + i * (1 << 20) + (excess & 0xf_ffff),
         }
     };
-    // A cycle is within a block, and so are shortest paths between links of one.
+    // A cycle lies within one block, and so do the shortest paths between links of a block.
     let graph = |block: Vec<JointId>| {
         let (mut graph, mut nodes) = (Graph::default(), BTreeMap::new());
         for j in block {
@@ -213,7 +214,7 @@ fn shortest_cycles(
         graph.node_indices().map(tree).collect_vec()
     };
     let trees: Vec<(usize, Tree)> = graphs.iter().enumerate().flat_map(of).collect();
-    // (length, v, joint): the cycles themselves are written out only as they are asked for.
+    // (length, v, joint): the joints of a cycle are only listed on demand.
     let mut heap: BinaryHeap<Reverse<(u64, usize, usize)>> = trees
         .iter()
         .enumerate()
@@ -226,7 +227,7 @@ fn shortest_cycles(
     let mut waiting: Vec<Vec<JointId>> = Vec::new();
     std::iter::from_fn(move || {
         if waiting.is_empty() {
-            // All of one length, nearly always one cycle seen from each of its links.
+            // All of one length, almost always one cycle found from each of its links.
             let Reverse((length, ..)) = heap.peek()?;
             let length = *length;
             let mut equal: Vec<(Vec<JointId>, Vec<JointId>)> = Vec::new();
@@ -250,13 +251,13 @@ fn shortest_cycles(
 /// A joint with its length in walks.
 struct WeighedJoint {
     joint: JointId,
-    /// A unit, and a small excess that no other has.
+    /// A unit, and a small excess that no other joint has.
     length: u64,
 }
 
 type Graph = UnGraph<(), WeighedJoint>;
 
-/// The end of a joint that is not `x`.
+/// Returns the end of a joint that is not `x`.
 fn other_end(e: EdgeReference<'_, WeighedJoint>, x: NodeIndex) -> NodeIndex {
     if e.source() == x {
         e.target()
@@ -267,16 +268,16 @@ fn other_end(e: EdgeReference<'_, WeighedJoint>, x: NodeIndex) -> NodeIndex {
 
 /// Shortest paths from one link.
 struct Tree {
-    /// Distance of each link that can be reached.
+    /// Distance of each reachable link.
     dist: Vec<Option<u64>>,
     /// The last joint on the path to each link.
     last: Vec<Option<EdgeIndex>>,
-    /// The first joint on the path to each link: paths with different ones meet nowhere.
+    /// The first joint on the path to each link. Paths with different first joints do not meet.
     first: Vec<Option<EdgeIndex>>,
 }
 
 impl Tree {
-    /// Dijkstra's algorithm, O(m log m).
+    /// Runs Dijkstra's algorithm, O(m log m).
     fn new(graph: &Graph, from: NodeIndex) -> Tree {
         let mut dist: Vec<Option<u64>> = vec![None; graph.node_count()];
         let mut settled = Vec::with_capacity(graph.node_count());
@@ -309,7 +310,8 @@ impl Tree {
         Tree { dist, last, first }
     }
 
-    /// The length of the closed walk through a joint, where the two shortest paths to its ends share only their first link. O(1).
+    /// Returns the length of the closed walk through a joint, if the two shortest paths to its ends share only their
+    /// first link. O(1).
     fn closes(&self, e: EdgeReference<'_, WeighedJoint>) -> Option<(u64, usize)> {
         let (x, y) = (e.source().index(), e.target().index());
         let (dx, dy) = (self.dist[x]?, self.dist[y]?);
@@ -318,7 +320,7 @@ impl Tree {
         (!in_tree && apart).then(|| (dx + dy + e.weight().length, e.id().index()))
     }
 
-    /// The joints of that walk, in order.
+    /// Returns the joints of that walk, in order.
     fn cycle(&self, graph: &Graph, e: usize) -> Vec<JointId> {
         let e = EdgeIndex::new(e);
         let Some((x, y)) = graph.edge_endpoints(e) else {
@@ -342,7 +344,7 @@ impl Tree {
     }
 }
 
-/// Starts a contour at its first joint in file order, and goes on towards the earlier of its neighbours.
+/// Rotates a contour to its first joint in file order, continuing towards the earlier of its neighbours.
 fn from_first(cycle: &[JointId]) -> Vec<JointId> {
     let first = cycle.iter().position_min().unwrap_or(0);
     let mut rotated = cycle[first..].to_vec();

@@ -1,8 +1,8 @@
 //! Couplings as rows of the closure matrix.
 //!
-//! A column of J is the twist of a freedom about or along an axis of any length, so that a speed of 1 is a rate of that
-//! length in radians or length units. A coupling is about rates, and its row takes the lengths out again:
-//! s_b - ratio·(|a|/|b|)·s_a = 0 for speeds s on axes a and b.
+//! A column of J is the twist of a freedom about or along an axis of any length. So a speed of 1 is a rate of that
+//! length in radians or length units. A coupling relates rates, and its row cancels the lengths: s_b -
+//! ratio·(|a|/|b|)·s_a = 0 for speeds s on axes a and b.
 
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::Reals;
@@ -11,13 +11,13 @@ use crate::geom::expr::Expr;
 use crate::model::joint_type::{Coupling, Freedom};
 use crate::model::mechanism::{Frame, JointId, Mechanism, StateId};
 
-/// Squares of lengths that differ by less than this part are those of two axes of one length, written in decimals.
+/// Relative difference of squared lengths below which two axes, written in decimals, have the same length.
 const UNIT: f64 = 1e-12;
 
-/// Bits in a square of a length, numerator and denominator, above which its root is taken as a decimal.
+/// Bits in a squared length, numerator and denominator, above which its root is replaced by a decimal.
 const LONG: u64 = 64;
 
-/// The square of the length of the axis that a freedom turns about or slides along; see [`super::twist::FrameValues`].
+/// Returns the squared length of the axis of a freedom; see [`super::twist::FrameValues`].
 pub(super) fn square(frame: &Frame, freedom: Freedom) -> Expr {
     let dot = |a: &[Expr; 3], b: &[Expr; 3]| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
     let z = || dot(&frame.axis, &frame.axis);
@@ -34,8 +34,8 @@ pub(super) fn square(frame: &Frame, freedom: Freedom) -> Expr {
     }
 }
 
-/// The length of the axis of a freedom in one frame over that in another; 1 where they differ by rounding only, a
-/// decimal where axes of many digits have no short root.
+/// Returns the length of the axis of a freedom in one frame over that in another. The ratio is 1 if they differ only by
+/// rounding, and a decimal if axes of many digits have no short root.
 #[must_use]
 pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
     let (a, b) = (square(of.0, of.1), square(over.0, over.1));
@@ -43,7 +43,7 @@ pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
     if (ratio - 1.0).abs() < UNIT {
         return Expr::from(1);
     }
-    // Axes are not zero, so that the quotient and its root are there.
+    // Axes are nonzero, so the quotient and its root exist.
     let exact = a.div(&b).and_then(|q| {
         let root = q.sqrt()?;
         let long = q
@@ -51,13 +51,13 @@ pub fn length_ratio(of: (&Frame, Freedom), over: (&Frame, Freedom)) -> Expr {
             .is_some_and(|q| q.numer().bits() + q.denom().bits() > LONG);
         (root.as_rational().is_some() || !long).then_some(root)
     });
-    // Axes of many decimals are measured or rounded: their lengths are good to a double's digits at best.
+    // Axes of many decimals are measured or rounded. Their lengths are at most as accurate as a double.
     exact
         .or_else(|| Expr::from_f64(ratio.sqrt()).ok())
         .unwrap_or_else(|| Expr::from(1))
 }
 
-/// The entry of a coupling's row at the speed of its first freedom, where that of the second is 1.
+/// Returns the entry of a coupling's row at the speed of its first freedom, with the entry of the second scaled to 1.
 #[must_use]
 pub fn coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
     let [a, b] = coupling.ends;
@@ -66,7 +66,7 @@ pub fn coefficient(mechanism: &Mechanism, coupling: &Coupling) -> Expr {
     -(&coupling.ratio * &length)
 }
 
-/// The entries of all couplings of a state, for the field that they are to have values in.
+/// Returns the entries of all couplings of a state, for the field in which they need values.
 #[must_use]
 pub fn coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
     mechanism
@@ -75,7 +75,7 @@ pub fn coefficients(mechanism: &Mechanism, state: StateId) -> Vec<Expr> {
         .collect()
 }
 
-/// Returns whether a freedom by itself stays in the space of the mechanism's mode.
+/// Returns true if a freedom on its own stays in the space of the mechanism's mode.
 #[must_use]
 pub fn in_plane(mechanism: &Mechanism, joint: JointId, freedom: Freedom) -> bool {
     let stays = || {

@@ -1,8 +1,8 @@
 //! The rate of a driven freedom, as a linear function of the twist between the links of its joint.
 //!
-//! The rate is defined for every joint type that may stand in the place of the driven one: a turn's rate is the angular velocity
-//! along the driven axis, and a slide's rate is the velocity along it of the point where the joint is. A thread's rate is that of its
-//! turn.
+//! The rate is defined for every joint type that may replace the driven one. The rate of a turn is the angular velocity
+//! along the driven axis. The rate of a slide is the velocity along it of the point at the joint. The rate of a thread
+//! is that of its turn.
 
 use crate::closure::coupling::square;
 use crate::closure::twist::{FrameValues, MotionSpace};
@@ -13,11 +13,11 @@ use crate::geom::{Reals, Scalars};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::model::mechanism::{Frame, JointId, Mechanism};
 
-/// Returns the rate of a drive as coefficients of the twist of what stands at its joint in the frame `at`, up to a factor that is
-/// the same for all that may stand there; `None` where the search follows no drive at the joint.
+/// Returns the rate of a drive as coefficients of the twist of a joint in the frame `at`, up to a factor. The factor is
+/// the same for all joint types that may be there. Returns `None` if the search follows no drive at the joint.
 ///
 /// # Errors
-/// Where a coordinate has no value in the number system.
+/// Returns an error if a coordinate has no value in the number system.
 pub(crate) fn rate_row<S: Scalars>(
     s: &S,
     space: &MotionSpace<S::Number>,
@@ -76,14 +76,14 @@ pub(crate) fn rate<S: Scalars>(s: &S, row: &[S::Number], twist: &[S::Number]) ->
     })
 }
 
-/// Returns the freedom of `joint_type` in the frame `at` whose speed is the rate of a driven freedom: the one about or along the driven
-/// axis. `None` where there is none, or where another freedom has a share in that rate.
+/// Returns the freedom of `joint_type` in the frame `at` whose speed is the rate of a driven freedom: the one about or
+/// along the driven axis. Returns `None` if there is none, or if another freedom has a share in that rate.
 #[must_use]
 pub(crate) fn driven_in(
     (present, driven): (&Frame, Freedom),
     (at, joint_type): (&Frame, &JointType),
 ) -> Option<Freedom> {
-    /// Sine or cosine below which axes are taken for parallel or square.
+    /// Sine or cosine below which axes count as parallel or perpendicular.
     const SQUARE: f64 = 1e-9;
     let axis = |frame: &Frame, freedom: Freedom| {
         let values = FrameValues::new(&Reals, frame).ok()?;
@@ -94,7 +94,7 @@ pub(crate) fn driven_in(
     let along = axis(present, driven)?;
     let mut found = None;
     for &freedom in joint_type.freedoms() {
-        // A thread slides as it turns.
+        // A thread slides when it turns.
         if freedom.slides() != driven.slides() && !(driven.slides() && freedom == Freedom::Screw) {
             continue;
         }
@@ -108,7 +108,7 @@ pub(crate) fn driven_in(
     found
 }
 
-/// Returns the axis that a freedom turns about or slides along, of a frame's axes x, y, z.
+/// Returns the axis about which a freedom turns or along which it slides, from a frame's axes x, y, z.
 fn axis_of<N>([x, y, z]: [[N; 3]; 3], freedom: Freedom) -> [N; 3] {
     match freedom {
         Freedom::Rx | Freedom::Tx => x,

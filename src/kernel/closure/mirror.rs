@@ -1,4 +1,4 @@
-//! Mirror images: whether the joints that a file pairs are each other's images in one plane, and by how much they are not.
+//! Mirror images: whether the joints paired in a file are images of each other in one plane, and their deviations.
 
 use crate::closure::symmetry_image::{Carrier, Map, Miss, Spot};
 use crate::geom::Scalars;
@@ -8,12 +8,12 @@ use crate::geom::vector::{Vector, dot, length, real};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Frame, JointId, Mechanism};
 
-/// A plane by two points that are images of each other.
+/// A plane, given by two points that are images of each other.
 #[derive(Debug, Clone)]
 pub struct Plane {
     one: ExactVector,
     other: ExactVector,
-    /// Across it, in numbers, and a point of it.
+    /// Its normal, in numbers, and a point in the plane.
     normal: Vector,
     middle: Vector,
 }
@@ -29,8 +29,9 @@ impl Plane {
         }
     }
 
-    /// The planes that a pair of joints may be images in: midway between their points, or where these are one, across a
-    /// direction of the first joint, between the two axes, or through a third point that is its own image.
+    /// Returns the planes in which a pair of joints may be images. The plane lies midway between their points. If the
+    /// points coincide, it is perpendicular to a direction of the first joint or lies between the two axes. It may also
+    /// pass through a third point that is its own image.
     fn candidates(one: &Frame, other: &Frame, own: &[&ExactVector]) -> Vec<Plane> {
         let [p, q] = [&one.point, &other.point];
         if real(p) != real(q) {
@@ -45,8 +46,9 @@ impl Plane {
         normals.iter().map(plane).collect()
     }
 
-    /// The planes the pairs may be images in, the likeliest first, each with how far every pair is off in it: those that
-    /// the pairs themselves suggest, judged by most of the pairs, and where these agree, by all joints.
+    /// Returns the planes in which the pairs may be images, the most likely first, with the deviation of every pair.
+    /// The pairs themselves suggest the planes, which are ranked by most of the pairs, and then by all joints if these
+    /// agree.
     #[must_use]
     pub fn of_pairs(
         mechanism: &Mechanism,
@@ -55,7 +57,7 @@ impl Plane {
         Plane::among(mechanism, &Spot::of_joints(mechanism), pairs)
     }
 
-    /// The same, of joints whose spots are known.
+    /// Returns the planes for joints with known positions, as `of_pairs` does for a mechanism.
     pub(crate) fn among(
         mechanism: &Mechanism,
         spots: &[Spot],
@@ -78,7 +80,7 @@ impl Plane {
             let misses: Vec<Miss> = pairs.iter().map(|&(a, b)| miss(a, b)).collect();
             let mut off: Vec<f64> = misses.iter().map(Miss::size).collect();
             off.sort_by(f64::total_cmp);
-            // The median first: one wrong pair must not choose the plane.
+            // The median comes first, because one wrong pair must not choose the plane.
             let all =
                 off.iter().sum::<f64>() + alone.iter().map(|&j| miss(j, j).size()).sum::<f64>();
             let key = (off[off.len() / 2], all);

@@ -1,4 +1,4 @@
-//! Whether a joint is the image of another when space is reflected or turned, and by how much it is not.
+//! Whether a joint is the image of another under a reflection or rotation of space, and its deviation.
 
 use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::format::brief;
@@ -10,7 +10,7 @@ use crate::linalg::modp::{Field, Residue};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Mechanism, Mode};
 
-/// Where a joint is, in numbers.
+/// Position of a joint, in numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spot {
     /// Its point.
@@ -20,7 +20,7 @@ pub(crate) struct Spot {
 }
 
 impl Spot {
-    /// Of a joint's frame.
+    /// Returns the position of a joint's frame.
     #[must_use]
     pub(crate) fn of(frame: &Frame) -> Spot {
         Spot {
@@ -29,7 +29,7 @@ impl Spot {
         }
     }
 
-    /// Of every joint.
+    /// Returns the positions of all joints.
     pub(crate) fn of_joints(mechanism: &Mechanism) -> Vec<Spot> {
         let joints = mechanism.joint_ids();
         joints
@@ -38,7 +38,7 @@ impl Spot {
     }
 }
 
-/// A type of joint at a place: what says which motions are allowed.
+/// A joint type at a position, which determines the allowed motions.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlacedType<'a> {
     /// Its frame.
@@ -47,17 +47,17 @@ pub(crate) struct PlacedType<'a> {
     pub joint_type: &'a JointType,
 }
 
-/// How far the image of a joint is from the joint it is paired with.
+/// Deviation of the image of a joint from the joint it is paired with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Miss {
-    /// Distance of their points; for a joint that is the same all along its axis, of the axes. In the file's unit.
+    /// Distance of their points, or of their axes if the joint is the same all along its axis. In the file's unit.
     pub distance: f64,
     /// Angle between their axes, in radians.
     pub angle: f64,
 }
 
 impl Miss {
-    /// Of a joint whose point and axis have become these.
+    /// Computes the deviation of a joint from the new position of its point and axis.
     fn new(image: Spot, of: &JointType, to: Spot) -> Miss {
         let own = to.axis;
         let off = [0, 1, 2].map(|i| image.point[i] - to.point[i]);
@@ -76,12 +76,12 @@ impl Miss {
         Miss { distance, angle }
     }
 
-    /// Distance and angle as one number, to compare by.
+    /// Returns distance and angle combined into one number for comparisons.
     pub(super) fn size(&self) -> f64 {
         self.distance + self.angle
     }
 
-    /// "2.062 cm and 0.5°"; `unit` is the file's.
+    /// Describes the deviation, such as "2.062 cm and 0.5°"; `unit` is that of the file.
     #[must_use]
     pub fn words(&self, unit: &str) -> String {
         let number = |x: f64| {
@@ -99,27 +99,27 @@ impl Miss {
     }
 }
 
-/// What carries space over to itself, and a mechanism with it.
+/// A map of space to itself that maps a mechanism to itself.
 pub(crate) trait Carrier {
-    /// Where it carries a joint, in numbers.
+    /// Returns the image of a joint, in numbers.
     fn image(&self, spot: Spot) -> Spot;
 
-    /// What becomes of space in exact numbers; none where lengths do not stay.
+    /// Returns the map of space in exact numbers, or `None` if lengths change.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError>;
 
-    /// How far the image of a joint of a type is from a place.
+    /// Returns the deviation of the image of a joint of a type from a position.
     #[must_use]
     fn miss(&self, from: Spot, of: &JointType, to: Spot) -> Miss {
         Miss::new(self.image(from), of, to)
     }
 
-    /// Whether the image of a joint allows exactly the motions of another.
+    /// Returns true if the image of a joint allows exactly the motions of another.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     fn carries(
         &self,
         exact: &ExactField,
@@ -134,19 +134,19 @@ pub(crate) trait Carrier {
     }
 }
 
-/// What becomes of space: x goes to `linear`·x + `shift`, lengths stay.
+/// Map of space: x maps to `linear`·x + `shift`, and lengths are preserved.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Map {
-    /// What becomes of x, y and z.
+    /// Images of x, y and z.
     pub(super) linear: [[Residue; 3]; 3],
-    /// What becomes of the origin.
+    /// Image of the origin.
     pub(super) shift: [Residue; 3],
-    /// Whether right hands become left ones.
+    /// Whether the map reverses orientation.
     pub(super) reflects: bool,
 }
 
 impl Map {
-    /// The map that does to directions what `linear` does.
+    /// Creates the map that acts on directions as `linear` does.
     pub(super) fn new(
         f: Field,
         linear: impl Fn([Residue; 3]) -> [Residue; 3],
@@ -176,7 +176,8 @@ impl Map {
         to: PlacedType<'_>,
     ) -> Result<bool, ExactError> {
         let f = exact.field();
-        // A turn about u is one about -u in a mirror; the body point at the origin is the image of that at the shift.
+        // A turn about u is a turn about -u in a mirror. The body point at the origin is the image of that at the
+        // shift.
         let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
             let turned = self.direction(f, [w0, w1, w2]);
             let w = if self.reflects {

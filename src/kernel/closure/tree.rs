@@ -1,11 +1,11 @@
-//! Breadth-first spanning trees: of the links of a mechanism, and of any graph; and what groups tie together, directly or through
-//! others, as joints are by the contours and couplings that they share.
+//! Breadth-first spanning trees of the links of a mechanism and of any graph. Also the sets that groups connect,
+//! directly or through others, as joints are connected by shared contours and couplings.
 
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, VecDeque};
 
-/// A node reached from one reached before; links through a joint, where nothing else is said.
+/// A node reached from an earlier one. By default nodes are links and edges are joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TreeStep<N = LinkId, E = JointId> {
     /// The node reached.
@@ -18,7 +18,8 @@ pub struct TreeStep<N = LinkId, E = JointId> {
     pub forward: bool,
 }
 
-/// The spanning tree of the links that a state's joints connect with the frame; every link after the one it hangs on.
+/// Returns the spanning tree of the links that a state's joints connect with the frame. Every link comes after its
+/// parent.
 ///
 /// # Complexity
 /// O(n + m) for n links, m joints.
@@ -43,7 +44,8 @@ pub fn spanning_tree(mechanism: &Mechanism, state: StateId) -> Vec<TreeStep> {
     steps.into_iter().map(named).collect()
 }
 
-/// Joints on a shortest path from the frame to a link, with the direction they are passed in; empty where there is none.
+/// Returns the joints on a shortest path from the frame to a link, with their direction of passage. Empty if there is
+/// no path.
 ///
 /// # Complexity
 /// O(n + m) for n links, m joints.
@@ -56,13 +58,13 @@ pub(crate) fn path_from_frame(
     path_in(&spanning_tree(mechanism, state), link)
 }
 
-/// The same in a spanning tree that is known.
+/// Returns the path in a known spanning tree, as `path_from_frame` does.
 ///
 /// # Complexity
 /// O(n) for n links.
 pub(crate) fn path_in(tree: &[TreeStep], link: LinkId) -> Vec<(JointId, bool)> {
     let (mut path, mut at) = (Vec::new(), link);
-    // Every step comes after the one that leads to where it starts.
+    // Every step comes after the one that leads to its start.
     for s in tree.iter().rev() {
         if s.link == at {
             path.push((s.joint, s.forward));
@@ -73,8 +75,8 @@ pub(crate) fn path_in(tree: &[TreeStep], link: LinkId) -> Vec<(JointId, bool)> {
     path
 }
 
-/// Roots and steps of a spanning forest: a tree from each of the `starts` that no earlier one reaches. Edges marked `late`
-/// are taken only where no other edge leads on.
+/// Returns the roots and steps of a spanning forest, with a tree from each of the `starts` that no earlier one reaches.
+/// Edges marked `late` are used only if no other edge leads further.
 ///
 /// # Complexity
 /// O(n + m) for n nodes, m edges.
@@ -129,10 +131,10 @@ pub fn forest(
     (roots, steps)
 }
 
-/// The sets that groups of things tie them into; each ascending, in the order of their first members.
+/// Returns the sets that groups connect, each ascending, in the order of their first members.
 ///
 /// # Complexity
-/// O(n log n) for groups of n things in all.
+/// O(n log n) for groups with n members in all.
 pub(crate) fn tied<T: Ord + Copy>(groups: impl IntoIterator<Item = Vec<T>>) -> Vec<Vec<T>> {
     let groups: Vec<Vec<T>> = groups.into_iter().collect();
     let mut number: BTreeMap<T, usize> = groups.iter().flatten().map(|&t| (t, 0)).collect();
@@ -160,7 +162,7 @@ mod tests {
         #[test]
         fn a_forest_spans(edges in prop::collection::vec([0..8usize, 0..8usize], 0..16), split in 0..16usize) {
             let (roots, steps) = forest(8, edges.iter().copied(), |e| e >= split, 0..8);
-            // One step fewer than nodes in each tree, and trees as many as there are components.
+            // Each tree has one step fewer than nodes, and there are as many trees as components.
             prop_assert_eq!(roots.len() + steps.len(), 8);
             let mut sets = petgraph::unionfind::UnionFind::<usize>::new(8);
             let merged = edges.iter().filter(|[a, b]| sets.union(*a, *b)).count();
@@ -177,7 +179,7 @@ mod tests {
 
     #[test]
     fn early_edges_come_first() {
-        // 0-1 late, 0-2 and 2-1 early: 1 is reached the long way.
+        // With 0-1 late and 0-2 and 2-1 early, node 1 is reached by the longer path.
         let (_, steps) = forest(3, [[0, 1], [0, 2], [2, 1]], |e| e == 0, [0]);
         assert_eq!(steps.iter().map(|s| s.joint).collect::<Vec<_>>(), [1, 2]);
     }

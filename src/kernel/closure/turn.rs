@@ -1,4 +1,4 @@
-//! Half and third turns: whether joints that a file groups become each other when space is turned about one axis.
+//! Half and third turns: whether joints grouped in a file map to each other when space turns about one axis.
 
 use crate::closure::symmetry_image::{Carrier, Map, Spot};
 use crate::geom::Scalars;
@@ -8,10 +8,10 @@ use crate::geom::vector::{self, Vector, dot, length, real};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism};
 
-/// Part of a turn about an axis.
+/// A fraction of a full turn about an axis.
 #[derive(Debug, Clone)]
 pub(crate) struct Turn {
-    /// Points that it carries to each other, two or three: their middle is on the axis.
+    /// Two or three points that it maps to each other; their middle is on the axis.
     round: Vec<ExactVector>,
     axis: ExactVector,
     /// The middle and the direction of the axis, in numbers.
@@ -19,7 +19,7 @@ pub(crate) struct Turn {
     along: Vector,
 }
 
-/// A direction, and the same in numbers.
+/// A direction, exact and in numbers.
 type Direction = (ExactVector, Vector);
 
 fn numbered(direction: ExactVector) -> Direction {
@@ -27,7 +27,7 @@ fn numbered(direction: ExactVector) -> Direction {
     (direction, numbers)
 }
 
-/// Of each joint of a mechanism the directions of its frame, which axes of turns may be along.
+/// The directions of each joint's frame in a mechanism, along which axes of turns may lie.
 pub(crate) struct FrameDirections(Vec<[Direction; 3]>);
 
 impl FrameDirections {
@@ -43,8 +43,9 @@ impl FrameDirections {
 }
 
 impl Turn {
-    /// The turns that groups of joints may suggest: three points tell all; two the middle, and the axis is along a direction of
-    /// their joints, between or across these, or along a direction of a joint that is its own image.
+    /// Returns the turns that groups of joints suggest. Three points determine the turn. Two points determine only the
+    /// middle. The axis is then along a direction of their joints, between or across these, or along a direction of a
+    /// joint that is its own image.
     #[must_use]
     pub(crate) fn of_groups(
         mechanism: &Mechanism,
@@ -71,7 +72,7 @@ impl Turn {
             let count = round.len() as f64;
             let points: Vec<Vector> = round.iter().map(real).collect();
             let centre = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count);
-            // Joints of a plane have their directions in common.
+            // Joints of a plane share their directions.
             let mut known: Vec<Vector> = Vec::new();
             for (axis, along) in axes {
                 if length(along) == 0.0 || known.contains(&along) {
@@ -123,7 +124,7 @@ impl Carrier for Turn {
         let part = f.inv(number(if third { 3 } else { 2 }));
         let centre = centre.map(|x| f.mul(part, x));
         let half = f.inv(number(2));
-        // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|²; of an equilateral triangle sin / |n| is 1 / side².
+        // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|²; for an equilateral triangle, sin / |n| is 1 / side².
         let (cosine, sine, rest) = if third {
             let side = [0, 1, 2].map(|i| f.sub(points[1][i], points[0][i]));
             let side = exact.dot(side, side);

@@ -1,8 +1,8 @@
 //! Unit twists of a joint's freedoms.
 //!
-//! One convention throughout: a twist is (ω; v), angular velocity first, then the velocity of the body point that
-//! passes through the global origin, in global axes. A wrench is (moment about the origin; force) written as (m; f), so
-//! that its power on a twist is the plain scalar product of the six numbers.
+//! There is one convention throughout. A twist is (ω; v): angular velocity first, then the velocity of the body point
+//! that passes through the global origin, in global axes. A wrench is (moment about the origin; force), written as (m;
+//! f). Its power on a twist is the plain scalar product of the six numbers.
 
 use crate::geom::Scalars;
 use crate::geom::exact::ExactError;
@@ -14,12 +14,12 @@ use crate::model::mechanism::{Frame, Mode};
 /// A twist (ω; v) about the global origin.
 pub type Twist<N> = [N; 6];
 
-/// The space that twists live in: all six components, or the three of a plane.
+/// The space of twists: all six components, or the three of a plane.
 #[derive(Debug, Clone)]
 pub enum MotionSpace<N> {
     /// All six.
     Spatial,
-    /// (ω·n, v·e1, v·e2) with n the plane's normal and e1, e2 across it.
+    /// (ω·n, v·e1, v·e2) with n the plane's normal and e1, e2 perpendicular to it.
     Planar {
         /// n, e1, e2.
         axes: [[N; 3]; 3],
@@ -27,10 +27,10 @@ pub enum MotionSpace<N> {
 }
 
 impl<N: Clone + PartialEq + Default> MotionSpace<N> {
-    /// The space a mechanism's mode asks for.
+    /// Creates the motion space for a mechanism's mode.
     ///
     /// # Errors
-    /// Where the normal has no value in the number system.
+    /// Returns an error if the normal has no value in the number system.
     pub fn new<S: Scalars<Number = N>>(s: &S, mode: &Mode) -> Result<Self, ExactError> {
         Ok(match mode {
             Mode::Spatial => MotionSpace::Spatial,
@@ -50,7 +50,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
         })
     }
 
-    /// Rows per contour: 6 or 3.
+    /// Returns the number of rows per contour: 6 or 3.
     #[must_use]
     pub fn dim(&self) -> usize {
         match self {
@@ -64,7 +64,7 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
         if let MotionSpace::Planar { axes: [n, ..] } = self {
             let [w, v] = halves(t);
             let dot = |a: &[N; 3], b: &[N; 3]| s.dot(a.clone(), b.clone());
-            // Products of decimals round: a turn about the normal must not fall out of the plane by that.
+            // Products of decimals are rounded. This must not move a turn about the normal out of the plane.
             let (nn, ww) = (dot(n, n), dot(&w, &w));
             let turn = s.mul(ww.clone(), nn.clone());
             let shift = s.mul(s.add(dot(&v, &v), ww), nn);
@@ -91,13 +91,14 @@ impl<N: Clone + PartialEq + Default> MotionSpace<N> {
     }
 }
 
-/// Returns the turn and the velocity of a twist.
+/// Returns the angular velocity and the velocity of a twist.
 fn halves<N: Clone>(t: &Twist<N>) -> [[N; 3]; 2] {
     let [a, b, c, d, e, f] = t.clone();
     [[a, b, c], [d, e, f]]
 }
 
-/// Returns a twist about or along an axis of unit length: rounding must not let axes grow or shrink over many steps.
+/// Returns a twist about or along an axis of unit length, because rounding must not let axes grow or shrink over many
+/// steps.
 #[must_use]
 pub fn unit_twist(mut t: Twist<f64>) -> Twist<f64> {
     let [w, v] = halves(&t);
@@ -124,7 +125,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
     /// Evaluates a frame: z = axis, x = reference·(z·z) - z·(z·reference), y = z × x.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the number system.
+    /// Returns an error if a coordinate has no value in the number system.
     pub fn new<S: Scalars<Number = N>>(s: &S, frame: &Frame) -> Result<Self, ExactError> {
         let vectors = [
             s.eval3(&frame.point)?,
@@ -134,7 +135,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         Ok(Self::of(s, vectors, s.eval(&frame.pitch)?))
     }
 
-    /// A frame from the values of its point, axis and reference.
+    /// Creates a frame from the values of its point, axis and reference.
     pub fn of<S: Scalars<Number = N>>(s: &S, [point, z, r]: [[N; 3]; 3], pitch: N) -> Self {
         let zero = s.sub(z[0].clone(), z[0].clone());
         let minus = s.sub(zero, s.dot(z.clone(), r.clone()));
@@ -150,8 +151,9 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
 
     /// Returns the motions of a joint with these freedoms that stay in a motion space, as a basis of twists.
     ///
-    /// In a plane, freedoms that leave it are combined so that together they stay in it: a ball turns about the plane's normal
-    /// wherever its own axes point. A combination has the name of its last freedom; what cannot be combined is left out.
+    /// In a plane, freedoms that leave it are combined so that together they stay in it. For example, a ball turns
+    /// about the plane's normal for any direction of its axes. A combination has the name of its last freedom. Freedoms
+    /// that cannot be combined are omitted.
     pub fn motions<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -161,7 +163,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         let MotionSpace::Planar { axes } = space else {
             return freedoms.iter().map(|&f| (f, self.twist(s, f))).collect();
         };
-        // At the joint's own point turns and slides do not mix.
+        // At the joint's own point, turns and slides do not mix.
         let point = [(); 3].map(|()| N::default());
         let here = FrameValues {
             point,
@@ -192,8 +194,8 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
             .collect()
     }
 
-    /// Returns [`FrameValues::motions`] in the order in which they are passed from the first link of the joint to the second:
-    /// slides before turns, and of a pin in a slot the turn first, because the slot belongs to the second link.
+    /// Returns [`FrameValues::motions`] in the order of passage from the first link of the joint to the second. Slides
+    /// come before turns. For a pin in a slot the turn comes first, because the slot belongs to the second link.
     pub fn motions_in_series<S: Scalars<Number = N>>(
         &self,
         s: &S,
@@ -217,7 +219,7 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
         motions.map(|(f, t)| (f, space.along_axes(s, &t))).collect()
     }
 
-    /// The twist of one freedom.
+    /// Returns the twist of one freedom.
     pub fn twist<S: Scalars<Number = N>>(&self, s: &S, freedom: Freedom) -> Twist<N> {
         let zero = || s.sub(self.point[0].clone(), self.point[0].clone());
         let join = |[a, b, c]: [N; 3], [d, e, f]: [N; 3]| [a, b, c, d, e, f];
@@ -243,12 +245,12 @@ impl<N: Clone + PartialEq + Default> FrameValues<N> {
     }
 }
 
-/// A motion of a joint about its point, with what leads out of the plane.
+/// A motion of a joint about its point, with its parts out of the plane.
 struct OutOfPlane<N> {
     twist: Twist<N>,
-    /// The turns about the two axes across the plane's normal, and the slide along it.
+    /// The turns about the two axes perpendicular to the plane's normal, and the slide along it.
     ways: [N; 3],
-    /// Squares of what the ways are measured against.
+    /// Squares of the reference sizes of these parts.
     sizes: [N; 3],
 }
 
@@ -265,12 +267,12 @@ impl<N: Clone + PartialEq + Default> OutOfPlane<N> {
         }
     }
 
-    /// Returns whether the motion leaves the plane that way.
+    /// Returns true if the motion leaves the plane in this part.
     fn leaves<S: Scalars<Number = N>>(&self, s: &S, way: usize) -> bool {
         !s.vanishes(self.ways[way].clone(), self.sizes[way].clone())
     }
 
-    /// Returns the combination of this motion and another that does not leave the plane that way.
+    /// Returns the combination of this motion and another that does not leave the plane in this part.
     fn combined<S: Scalars<Number = N>>(&self, s: &S, other: &Self, way: usize) -> Self {
         let (a, b) = (other.ways[way].clone(), self.ways[way].clone());
         let minus = s.sub(N::default(), b.clone());
@@ -294,7 +296,7 @@ pub type FreedomTwists<N> = Vec<(Freedom, Vec<N>)>;
 /// Returns the motions of a joint in a motion space, see [`FrameValues::motions`].
 ///
 /// # Errors
-/// Where a coordinate has no value in the number system.
+/// Returns an error if a coordinate has no value in the number system.
 pub fn joint_twists<S: Scalars>(
     s: &S,
     space: &MotionSpace<S::Number>,
