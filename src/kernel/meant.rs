@@ -1,10 +1,14 @@
-//! What measured geometry means: the scene with the most relations among those that move no number by more than its digits allow.
+//! Recovers the intended geometry from rounded coordinates: the scene with the most relations within the rounding of
+//! every number.
 //!
-//! Directions first: parallel ones as one, each refined by the points that are square to it or along it, then made exact in a frame
-//! of the scene's own. Points then: what lies in planes and on lines along those directions, coincides, or is equal as a vector is
-//! solved together by least squares, each relation taken only if all still hold, and at last exactly over the rationals.
+//! Directions come first. Parallel ones are merged, and each is refined by the points that lie along it or in planes
+//! perpendicular to it. Then they are made exact in the scene's own frame.
 //!
-//! Whether relations hold exactly, looked at modulo a prime: what only rounding makes hold does not.
+//! Points follow. Points in planes and on lines along those directions, coincident points and equal vectors are solved
+//! together by least squares. Each relation is accepted only if all accepted ones still hold. At the end they are
+//! solved exactly over the rationals.
+//!
+//! Whether relations hold exactly is tested modulo a prime. A relation that holds only by rounding fails this test.
 
 mod consensus;
 mod directions;
@@ -30,18 +34,18 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-/// A scene as it is meant.
+/// A recovered scene.
 #[derive(Debug, Clone)]
 pub struct MeantScene {
     /// Its points, exact, in the file's frame.
     pub points: Vec<Rational3>,
-    /// The same in a frame of the scene's own.
+    /// The points in the scene's own frame.
     pub(crate) inside: Vec<Rational3>,
     /// Its directions, exact, of any length.
     pub rays: Vec<Rational3>,
-    /// For each ray, which direction it has: parallel ones have one.
+    /// For each ray, the index of its direction; parallel rays share one.
     pub cluster: Vec<usize>,
-    /// The independent relations taken, and the points of each.
+    /// The independent relations accepted, with the points of each.
     pub relations: Vec<(RelationKind, Vec<usize>)>,
     /// The largest move of a coordinate, in halves of its last digit.
     pub moved: f64,
@@ -82,7 +86,7 @@ impl Images {
         }
     }
 
-    /// Whether a row holds; one that does not may seem to once in 10^18.
+    /// Returns true if a row holds. A row that does not may appear to hold once in 10^18.
     pub(crate) fn holds(&self, row: &PointEquation) -> bool {
         let n = &self.normals[row.normal];
         let sum = row.terms.iter().fold(0, |sum: u128, &(p, c)| {

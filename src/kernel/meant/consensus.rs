@@ -1,26 +1,27 @@
-//! Directions, known worse than points are: an axis of six decimals leaves 5e-7 rad, over 150 mm a hundred times what the points
-//! leave. So a direction is moved, within what its own digits allow, to where most pairs of points are square to it or along it.
+//! Refinement of directions, which are less accurate than points. An axis of six decimals leaves 5e-7 rad, over 150 mm
+//! a hundred times what the points leave. So a direction is turned, within its own digits, to where most pairs of
+//! points lie along it or perpendicular to it.
 
 use super::written::PointPair;
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, unit};
 
-/// Pairs that hypotheses are made of.
+/// Number of pairs that form hypotheses.
 const TRIED: usize = 48;
 
-/// What a pair says of a small turn (a, b) of the direction: r0 a + r1 b = r2, give or take.
+/// Equation of a pair for a small turn (a, b) of the direction: approximately r0 a + r1 b = r2.
 struct TurnEquation {
     row: [f64; 3],
     error: f64,
 }
 
-/// What pairs may say of a direction: each a line where they are square to it, two where they are along it.
+/// Equations of all pairs for a direction: one line if a pair is perpendicular to it, two if it is along it.
 struct Evidence {
     lines: Vec<TurnEquation>,
-    /// First line and how many, one entry a pair.
+    /// First line and number of lines of each pair.
     pairs: Vec<(usize, usize)>,
 }
 
-/// A turn that evidence says, and the ellipse of its errors: the angle of its short axis, and both.
+/// A turn suggested by the evidence, with its error ellipse: the angle of its short axis, and both axes.
 struct TurnEstimate {
     turn: [f64; 2],
     angle: f64,
@@ -38,17 +39,17 @@ impl TurnEstimate {
     }
 }
 
-/// A direction, refined.
+/// A refined direction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refined {
     pub(super) unit: Vector,
-    /// What is left of its error `[rad]`.
+    /// Its remaining error `[rad]`.
     pub(super) error: f64,
-    /// Two ways it may turn, square to it and to each other, with the error of each `[rad]`.
+    /// Two axes of possible turns, perpendicular to it and to each other, with the error of each `[rad]`.
     pub(super) tilts: [(Vector, f64); 2],
 }
 
-/// Two unit vectors square to a third and to each other.
+/// Returns two unit vectors perpendicular to a third and to each other.
 pub(super) fn square_to(v: Vector) -> [Vector; 2] {
     let least = [X, Y, Z]
         .into_iter()
@@ -91,7 +92,7 @@ fn evidence(v: Vector, error: f64, [e1, e2]: [Vector; 2], pairs: &[PointPair]) -
 }
 
 impl Evidence {
-    /// The lines of the pairs that agree with a turn.
+    /// Returns the lines of the pairs that agree with a turn.
     fn agreeing(&self, [a, b]: [f64; 2]) -> impl Iterator<Item = &TurnEquation> + '_ {
         let fits =
             move |l: &&TurnEquation| (l.row[0] * a + l.row[1] * b - l.row[2]).abs() <= l.error;
@@ -106,7 +107,8 @@ impl Evidence {
         self.agreeing(turn).count()
     }
 
-    /// The turn that the lines which agree with one say together, and its error; `prior` is that of the direction's digits.
+    /// Returns the turn fitted to the lines that agree with a given one, and its error. `prior` is the error of the
+    /// direction's digits.
     fn fit(&self, turn: [f64; 2], prior: f64) -> Option<TurnEstimate> {
         let (mut m, mut g) = ([[prior.powi(-2), 0.0], [0.0, prior.powi(-2)]], [0.0; 2]);
         for l in self.agreeing(turn) {
@@ -122,7 +124,7 @@ impl Evidence {
             (g[0] * m[1][1] - g[1] * m[0][1]) / det,
             (m[0][0] * g[1] - m[1][0] * g[0]) / det,
         ];
-        // The axes of the ellipse of errors.
+        // The axes of the error ellipse.
         let (half, diff) = (
             f64::midpoint(m[0][0], m[1][1]),
             f64::midpoint(m[0][0], -m[1][1]),
@@ -138,7 +140,7 @@ impl Evidence {
         })
     }
 
-    /// Turns worth trying: what single pairs along the direction and two square to it say.
+    /// Returns candidate turns from single pairs along the direction, and from two pairs perpendicular to it.
     fn hypotheses(&self) -> Vec<[f64; 2]> {
         let mut out = vec![[0.0; 2]];
         let mut square: Vec<&TurnEquation> = Vec::new();
@@ -170,11 +172,11 @@ impl Evidence {
     }
 }
 
-/// The direction within its error, and allowed, that most pairs of points agree with; one of the file's own axes where none does
-/// better.
+/// Returns the allowed direction within the error that most pairs of points agree with. If none is better, returns one
+/// of the file's own axes.
 ///
 /// # Complexity
-/// O(p²) hypotheses of at most 48² pairs, each held against O(p²) pairs of p points.
+/// O(p²) hypotheses of at most 48² pairs, each compared with O(p²) pairs of p points.
 pub(super) fn refined(
     v: Vector,
     error: f64,
@@ -207,7 +209,7 @@ pub(super) fn refined(
         && found.support(turn) == best.1
     {
         let unit = axes.into_iter().find(|e| length(cross(*e, v)) <= error);
-        // An axis of the file stays one, whatever else may be near.
+        // An axis of the file stays unchanged, even if other directions are near.
         return Refined {
             unit: unit.unwrap_or(v),
             error: 0.0,

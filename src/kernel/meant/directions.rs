@@ -1,18 +1,18 @@
-//! The directions of a scene that are written, parallel ones as one.
+//! The written directions of a scene, with parallel ones merged.
 
 use super::consensus::{Refined, refined, square_to};
 use super::written::{Ray, pairs};
 use crate::geom::vector::{Vector, X, Y, Z, add_scaled, cross, dot, length, scale, unit};
 
-/// A direction that moves its components by this many halves of their last digits is within them: it is fitted, not solved for.
+/// Maximum move of a direction's components, in halves of their last digit. Such a direction is fitted, not solved for.
 pub(crate) const WITHIN: f64 = 1.1;
 
-/// How bold relations are taken.
+/// Rules for accepting relations.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Caution {
-    /// Moves may be larger by this.
+    /// Factor by which moves may be larger.
     pub(crate) bold: f64,
-    /// Whether relations count that may be there by chance.
+    /// Whether relations count that may exist by chance.
     pub(crate) weak: bool,
 }
 
@@ -20,29 +20,29 @@ pub(crate) struct Caution {
 #[derive(Debug, Clone)]
 pub(super) struct Direction {
     pub(super) unit: Vector,
-    /// What it may be off by `[rad]`.
+    /// Its possible error `[rad]`.
     pub(super) error: f64,
-    /// How many rays have it; 0 where only points make it.
+    /// Number of rays with this direction; 0 if only points define it.
     pub(super) rays: usize,
-    /// Whether it is written exactly, as one of these rays.
+    /// The ray that gives it exactly, if it is written exactly.
     pub(super) exact: Option<usize>,
     /// Whether it is the normal of a plane of points.
     pub(super) plane: bool,
-    /// Two ways it may turn, with the error of each `[rad]`.
+    /// Two axes of possible turns, with the error of each `[rad]`.
     pub(super) tilts: [(Vector, f64); 2],
 }
 
-/// Directions, and which of them each ray has, with its sign.
+/// Directions, and the direction and sign of each ray.
 pub(super) struct Directions {
     pub(super) all: Vec<Direction>,
     pub(super) of_ray: Vec<(usize, f64)>,
 }
 
-/// Rays that are parallel within their errors as one direction, refined by the points.
+/// Merges rays that are parallel within their errors into one direction, refined by the points.
 pub(super) fn of_rays(rays: &[Ray], points: &[Vector], errors: &[f64]) -> Directions {
     let pairs = pairs(points, errors);
     let mut order: Vec<usize> = (0..rays.len()).collect();
-    // The best known first, so that others are compared with them.
+    // The most accurate come first, so that others are compared with them.
     order.sort_by(|&a, &b| rays[a].error().total_cmp(&rays[b].error()));
     let (mut all, mut of_ray) = (Vec::<Direction>::new(), vec![(0, 1.0); rays.len()]);
     let mut sums: Vec<(Vector, f64)> = Vec::new();
@@ -96,7 +96,7 @@ pub(super) fn of_rays(rays: &[Ray], points: &[Vector], errors: &[f64]) -> Direct
 }
 
 impl Direction {
-    /// One that points make.
+    /// Creates a direction defined by points.
     pub(super) fn of_points(unit: Vector, error: f64) -> Direction {
         Direction {
             unit,
@@ -110,7 +110,7 @@ impl Direction {
 }
 
 impl Directions {
-    /// Adds the file's own axes, exact, where they are not there.
+    /// Adds the file's own axes as exact directions, if they are missing.
     pub(super) fn add_axes(&mut self) {
         for e in [X, Y, Z] {
             if self.all.iter().any(|d| length(cross(d.unit, e)) == 0.0) {

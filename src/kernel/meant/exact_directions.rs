@@ -1,27 +1,27 @@
-//! Directions made exact one after another: each lies in the planes that earlier ones span or are square to, where it does so
-//! within its error: no such plane and it is free, one and it is kept in it, two and it is where they meet.
+//! Directions made exact one after another. Each may lie, within its error, in planes that earlier directions span or
+//! are normal to. Without such a plane it is free, with one it is kept in it, and with two it is their intersection.
 
 use super::directions::Direction;
 use super::number::{Rational3, axes, cross, decimal, is_zero, scaled, to_f64};
 use crate::geom::vector::{Vector, cross as cross_f64, dot, length, unit};
 use num_traits::Zero;
 
-/// A direction, exact in the scene's frame.
+/// A direction that is exact in the scene's frame.
 #[derive(Debug, Clone)]
 pub(super) struct Exact {
     pub(super) exact: Rational3,
     pub(super) unit: Vector,
-    /// What it may still be off from the truth `[rad]`: what was not told by other directions.
+    /// Its remaining error `[rad]`, in what other directions did not determine.
     pub(super) error: f64,
 }
 
 impl Exact {
-    /// An axis of the frame.
+    /// Creates the direction of a frame axis.
     pub(super) fn of_axis(exact: Rational3) -> Exact {
         Exact::new(exact, 0.0)
     }
 
-    /// One instead of another that is near.
+    /// Creates a direction near another.
     pub(super) fn near(exact: Rational3, other: &Exact) -> Exact {
         Exact::new(exact, other.error)
     }
@@ -32,15 +32,15 @@ impl Exact {
     }
 }
 
-/// Relations of directions hold to this by now.
+/// Accuracy to which relations between directions hold at this stage.
 const TOGETHER: f64 = 1e-12;
-/// What doubles leave of a plane that two directions span.
+/// Rounding error of a plane that two directions span.
 const ROUND_OFF: f64 = 1e-14;
-/// Planes are told apart by this sine.
+/// Minimum sine between distinct planes.
 const APART: f64 = 1e-4;
 
-/// Exact directions of a scene, in the order of `all`; `inside` turns to the scene's frame, `written` gives those that are
-/// written exactly.
+/// Returns the exact directions of a scene, in the order of `all`. `inside` rotates to the scene's frame, `written`
+/// gives those that are written exactly.
 pub(super) fn exact(
     all: &[Direction],
     inside: impl Fn(Vector) -> Vector,
@@ -48,7 +48,7 @@ pub(super) fn exact(
     digits: u32,
 ) -> Vec<Exact> {
     let mut order: Vec<usize> = (0..all.len()).collect();
-    // The best known first, for they move least.
+    // The most accurate come first, because they move least.
     order.sort_by(|&a, &b| {
         all[a]
             .error
@@ -66,7 +66,7 @@ pub(super) fn exact(
             continue;
         }
         let v = inside(d.unit);
-        // What is in a plane is so to rounding by now.
+        // A direction in a plane lies in it up to rounding at this stage.
         let found = placed(v, TOGETHER, &fixed, digits);
         if !fixed
             .iter()
@@ -79,7 +79,7 @@ pub(super) fn exact(
     out.into_iter().flatten().collect()
 }
 
-/// A direction near one, in the planes that fixed ones make.
+/// Returns a direction near `v`, in the planes that fixed ones define.
 pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exact {
     if let Some(same) = fixed
         .iter()
@@ -118,7 +118,7 @@ pub(super) fn placed(v: Vector, error: f64, fixed: &[Exact], digits: u32) -> Exa
     }
 }
 
-/// Planes that a direction may lie in, those it fits best first.
+/// Returns the planes in which a direction may lie, best fit first.
 fn offered(v: Vector, error: f64, fixed: &[Exact]) -> Vec<OfferedPlane> {
     let mut planes: Vec<OfferedPlane> = Vec::new();
     let mut offer = |of: [usize; 2], normal: Vector, slack: f64| {
@@ -143,23 +143,24 @@ fn offered(v: Vector, error: f64, fixed: &[Exact]) -> Vec<OfferedPlane> {
             }
         }
     }
-    // Square to two frame axes is an axis, told above; squares before spans, then by how well it fits.
+    // A direction perpendicular to two frame axes is an axis, handled above. Normal planes come before spans, then by
+    // fit.
     planes.sort_by(|a, b| a.off.total_cmp(&b.off));
     planes
 }
 
 /// A plane that a direction may lie in.
 struct OfferedPlane {
-    /// The two directions that span it; one twice is its normal.
+    /// The two directions that span it; a single direction given twice is its normal.
     of: [usize; 2],
     normal: Vector,
     off: f64,
-    /// What it may be off by.
+    /// Its tolerance.
     within: f64,
 }
 
 impl OfferedPlane {
-    /// The normal, exact. Its numbers are long, so that it is made of those alone that are taken.
+    /// Returns the exact normal. Its numbers are long, so it is computed only for accepted planes.
     fn exact(&self, fixed: &[Exact]) -> Rational3 {
         let [i, j] = self.of;
         if i == j {
@@ -174,12 +175,12 @@ fn free(v: Vector, error: f64, digits: u32) -> Exact {
     Exact::new(v.map(|x| decimal(x, digits)), error.max(last(digits)))
 }
 
-/// What a direction of so many decimals is off by.
+/// Returns the error of a direction with this many decimals.
 fn last(digits: u32) -> f64 {
     10f64.powi(-i32::try_from(digits).unwrap_or(i32::MAX))
 }
 
-/// A rational direction near one, square to a normal.
+/// Returns a rational direction near `v` and perpendicular to a normal.
 fn in_plane(v: Vector, normal: &Rational3, error: f64, digits: u32) -> Exact {
     let n = to_f64(normal);
     let i = (0..3)

@@ -1,5 +1,6 @@
-//! A frame of the scene's own, in which its planes are planes of coordinates: the file's where a direction of the scene is one of
-//! the file's axes, else turned by a rotation of rational numbers, so that what is exact in one is exact in the other.
+//! The scene's own frame, in which its planes are coordinate planes. This is the file's frame if a direction of the
+//! scene is one of the file's axes. Otherwise it is rotated by a rational rotation, so that exact values in one frame
+//! are exact in the other.
 
 use super::directions::Direction;
 use super::number::{Rational3, Whole, decimal, to_f64};
@@ -8,21 +9,21 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-/// Digits of the numbers that make a rotation: all that doubles have.
+/// Digits of the numbers that define a rotation: the full precision of doubles.
 const DIGITS: u32 = 18;
 
-/// A rotation from the scene's frame to the file's, exact.
+/// An exact rotation from the scene's frame to the file's.
 #[derive(Debug, Clone)]
 pub(super) struct SceneFrame {
-    /// By rows; none where the frames are one.
+    /// The rotation by rows, or `None` if the frames are equal.
     pub(super) rotation: Option<[Rational3; 3]>,
-    /// The same as whole numbers, outwards and inwards.
+    /// The rotation and its inverse as whole numbers.
     whole: Option<[Whole<3>; 2]>,
     real: [Vector; 3],
 }
 
 impl SceneFrame {
-    /// The file's own.
+    /// Creates the file's own frame.
     fn file() -> SceneFrame {
         SceneFrame {
             rotation: None,
@@ -31,15 +32,15 @@ impl SceneFrame {
         }
     }
 
-    /// Whether a direction is one of the file's axes, or written exactly: then the file's frame is the scene's.
+    /// Returns true if a direction is one of the file's axes, or written exactly. Then the file's frame is the scene's.
     pub(super) fn is_the_files(all: &[Direction]) -> bool {
         let is_axis = |d: &Direction| [X, Y, Z].iter().any(|e| length(cross(*e, d.unit)) == 0.0);
         all.iter()
             .any(|d| d.rays > 0 && (d.exact.is_some() || is_axis(d)))
     }
 
-    /// The frame of some directions: z the one that is known best, x the one square to it that is, or
-    /// in a plane with it.
+    /// Creates the frame of some directions. z is the most accurate one, and x the most accurate one perpendicular to
+    /// it or in a plane with it.
     pub(super) fn of(all: &[Direction]) -> SceneFrame {
         if SceneFrame::is_the_files(all) {
             return SceneFrame::file();
@@ -65,11 +66,11 @@ impl SceneFrame {
         }
     }
 
-    /// The rational rotation nearest to the one whose columns are these axes.
+    /// Returns the rational rotation nearest to the one whose columns are these axes.
     fn turned(columns: [Vector; 3]) -> SceneFrame {
         let m = |i: usize, j: usize| columns[j][i];
         let trace = [1.0, m(0, 0), m(1, 1), m(2, 2)];
-        // Four ways to the quaternion; that by its largest part is accurate.
+        // There are four formulas for the quaternion; the one by its largest component is accurate.
         let squares = [
             trace[0] + trace[1] + trace[2] + trace[3],
             trace[0] + trace[1] - trace[2] - trace[3],
@@ -121,17 +122,17 @@ impl SceneFrame {
         }
     }
 
-    /// A vector of the file in the scene's frame.
+    /// Converts a vector of the file to the scene's frame.
     pub(super) fn inside(&self, v: Vector) -> Vector {
         [0, 1, 2].map(|j| (0..3).map(|i| self.real[i][j] * v[i]).sum())
     }
 
-    /// A vector of the scene's frame in the file's.
+    /// Converts a vector of the scene's frame to the file's.
     pub(super) fn outside(&self, v: Vector) -> Vector {
         self.real.map(|row| dot(row, v))
     }
 
-    /// An exact vector of the file in the scene's frame.
+    /// Converts an exact vector of the file to the scene's frame.
     pub(super) fn inside_exactly(&self, v: &Rational3) -> Rational3 {
         match &self.whole {
             None => v.clone(),
@@ -139,7 +140,7 @@ impl SceneFrame {
         }
     }
 
-    /// The same exactly, the other way.
+    /// Converts an exact vector of the scene's frame to the file's.
     pub(super) fn outside_exactly(&self, v: &Rational3) -> Rational3 {
         match &self.whole {
             None => v.clone(),

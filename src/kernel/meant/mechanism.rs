@@ -1,4 +1,4 @@
-//! A mechanism as a scene, and the scene that is meant as a mechanism.
+//! Conversion of a mechanism to a scene, and of a recovered scene back to a mechanism.
 
 use super::MeantScene;
 use super::number::{Rational3, is_same};
@@ -13,27 +13,28 @@ use crate::model::rounded::{FrameUncertainty, Uncertainties, uncertainties};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// Joints in no loop that take part in the scene. They bear on no rank of J, and more of them take long.
+/// Maximum number of joints outside loops that take part in the scene. They do not affect the rank of J, and more of
+/// them take long.
 const OUTSIDE_LOOPS: usize = 16;
 
-/// A mechanism that is meant, exact.
+/// A recovered mechanism, exact.
 #[derive(Debug, Clone)]
 pub struct Meant {
-    /// It.
+    /// The mechanism.
     pub mechanism: Mechanism,
-    /// The frames of its joints as they are written.
+    /// The frames of its joints as written.
     pub written: Vec<Frame>,
-    /// The same as other scenes have it that the digits do not rule out.
+    /// The mechanisms of other scenes that the digits do not exclude.
     pub others: Vec<Mechanism>,
-    /// What its scene has.
+    /// The recovered scene.
     pub scene: MeantScene,
-    /// Of which joint each point of the scene is.
+    /// The joint of each point of the scene.
     pub points: Vec<JointId>,
-    /// Of which joint each direction of the scene is; none for the normal of the plane.
+    /// The joint of each direction of the scene, or `None` for the normal of the plane.
     pub rays: Vec<Option<JointId>>,
 }
 
-/// A place of a frame in the scene: its point, its axis and its reference, where they are in it.
+/// Indices of a frame's point, axis and reference in the scene, if present.
 #[derive(Debug, Clone, Copy, Default)]
 struct Slots {
     point: Option<usize>,
@@ -41,7 +42,7 @@ struct Slots {
     reference: Option<usize>,
 }
 
-/// A scene on the way in.
+/// A scene under construction.
 #[derive(Default)]
 struct Gathered {
     written: WrittenScene,
@@ -75,13 +76,13 @@ impl Gathered {
         Slots {
             point: Some(self.point(&f.point, half.point, of)),
             axis: uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of))),
-            // What is exact is mostly the file's axes by default, which say nothing of the scene.
+            // Exact references are mostly the file's default axes, which say nothing about the scene.
             reference: (uses.reference && half.reference != zero)
                 .then(|| self.ray(&f.reference, half.reference, Some(of))),
         }
     }
 
-    /// Takes in the frame of a joint, with the directions that it and what is offered along its axis use.
+    /// Adds the frame of a joint, with the directions used by it and by the options along its axis.
     fn joint(&mut self, joint: &Joint, half: &Uncertainties, j: JointId) -> Slots {
         let at = j.index();
         let uses = joint
@@ -99,7 +100,7 @@ impl Gathered {
         self.frame(&joint.frame, &halves, j, uses)
     }
 
-    /// Takes in what an offered frame has other than the joint's own, which is at some slots.
+    /// Adds the parts of an option's frame that differ from the joint's own frame, which has the given slots.
     fn offered(
         &mut self,
         f: &Frame,
@@ -133,7 +134,7 @@ impl Gathered {
     }
 }
 
-/// Which directions of a frame matter to a joint type.
+/// The directions of a frame that matter to a joint type.
 #[derive(Debug, Clone, Copy, Default)]
 struct Uses {
     axis: bool,
@@ -156,7 +157,7 @@ impl Uses {
     }
 }
 
-/// An exact vector; to forty digits where it is no rational one.
+/// Returns an exact vector, to forty digits if it is irrational.
 fn rational(v: &[Expr; 3]) -> Rational3 {
     v.each_ref().map(|e| {
         e.as_rational()
@@ -169,11 +170,13 @@ fn written_alike(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| a.is_same(b))
 }
 
-/// The mechanism that is meant by rounded coordinates; none where nothing is rounded, or no scene is found within the digits.
+/// Recovers the mechanism intended by rounded coordinates. Returns `None` if nothing is rounded, or if no scene is
+/// found within the digits.
 ///
 /// # Guarantee
-/// No number is moved by more than half a unit of its last digit, or what is stated of it, and a third for rounding in between.
-/// Exact numbers stay. Structure does not depend on how the file is turned, but for second axes that are left to the default.
+/// No number is moved by more than half a unit of its last digit, or its stated uncertainty, and a third for
+/// intermediate rounding. Exact numbers stay unchanged. The structure does not depend on the orientation of the file,
+/// except for second axes left to the default.
 ///
 /// # Complexity
 /// As [`resolve`].
@@ -224,8 +227,8 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
     })
 }
 
-/// Returns which joints take part in the scene: all, or those in a contour or a coupling of some state where many are in none.
-/// In a plane all have to stand square to it.
+/// Returns which joints take part in the scene: all, or only those in a contour or a coupling of some state if many are
+/// in none. In a plane, all must be perpendicular to it.
 fn taking_part(mechanism: &Mechanism) -> Vec<bool> {
     let mut tied = vec![false; mechanism.joints.len()];
     for state in mechanism.state_ids() {
@@ -242,7 +245,7 @@ fn taking_part(mechanism: &Mechanism) -> Vec<bool> {
     tied
 }
 
-/// The images that the file states; none of a third of a turn, which rational numbers have in frames of its own alone.
+/// Returns the images stated in the file, or `None` for a third of a turn, which is rational only in special frames.
 fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Option<WrittenSymmetry> {
     let search = &mechanism.search;
     if search.order() != 2 {
@@ -272,7 +275,7 @@ fn stated(mechanism: &Mechanism, own: &[Slots], offered: &[Vec<Slots>]) -> Optio
     Some(out)
 }
 
-/// Where the frames of a mechanism are in a scene.
+/// Indices of a mechanism's frames in a scene.
 struct Places {
     own: Vec<Slots>,
     offered: Vec<Vec<Slots>>,
@@ -280,7 +283,7 @@ struct Places {
 }
 
 impl Places {
-    /// The mechanism with the geometry of a scene.
+    /// Returns the mechanism with the geometry of a scene.
     fn put(&self, mechanism: &Mechanism, scene: &MeantScene) -> Mechanism {
         let mut out = mechanism.clone();
         let put = |f: &mut Frame, s: &Slots| {
@@ -312,7 +315,7 @@ impl Places {
     }
 }
 
-/// What no relation depends on is as it stands, and no longer doubted.
+/// Makes a vector that no relation depends on exact as written.
 fn settled(v: &mut [Expr; 3]) {
     for e in v {
         if let (true, Some(x)) = (e.half_unit().is_some(), e.as_rational()) {
@@ -321,7 +324,7 @@ fn settled(v: &mut [Expr; 3]) {
     }
 }
 
-/// Writes a vector over another, what is the same already as it stands: it may be irrational, and then stays so.
+/// Writes a vector over another. Equal values stay as written, because they may be irrational.
 fn write(v: &mut [Expr; 3], x: &Rational3) {
     let before = rational(v);
     for k in 0..3 {

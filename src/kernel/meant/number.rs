@@ -9,19 +9,19 @@ use num_traits::{ToPrimitive, Zero};
 /// A vector of rational numbers.
 pub(crate) type Rational3 = [BigRational; 3];
 
-/// The decimal of so many places nearest to a number that is finite.
+/// Returns the nearest decimal with `places` places to a finite number.
 pub(super) fn decimal(x: f64, places: u32) -> BigRational {
     let Some(exact) = BigRational::from_float(x) else {
         return BigRational::zero();
     };
     let scale = BigInt::from(10).pow(places);
-    // Halves go away from zero; whole numbers alone, since rational ones are reduced at every step.
+    // Halves round away from zero. Only whole numbers are used, because rational ones are reduced at every step.
     let (numer, denom) = (exact.numer() * &scale * 2, exact.denom());
     let half = if x < 0.0 { -denom } else { denom.clone() };
     BigRational::new((numer + half) / (denom * 2), scale)
 }
 
-/// Whether two numbers in lowest terms are the same: as their parts are, which needs no division.
+/// Returns true if two numbers in lowest terms are equal. This compares their parts, without a division.
 pub(super) fn is_same(a: &BigRational, b: &BigRational) -> bool {
     a.numer() == b.numer() && a.denom() == b.denom()
 }
@@ -44,7 +44,7 @@ impl<const N: usize> Whole<N> {
 }
 
 impl Whole<3> {
-    /// The same rows as columns.
+    /// Returns the rows as columns.
     pub(super) fn transposed(&self) -> Whole<3> {
         let entry = |i: usize, j: usize| self.numer[j][i].clone();
         Whole {
@@ -53,7 +53,7 @@ impl Whole<3> {
         }
     }
 
-    /// The products of the rows with a vector: reduced once, not after every sum.
+    /// Returns the products of the rows with a vector, reduced once, not after every sum.
     pub(super) fn times(&self, v: &Rational3) -> Rational3 {
         let Whole { numer: [v], denom } = Whole::of([v]);
         let denom = denom * &self.denom;
@@ -64,7 +64,7 @@ impl Whole<3> {
     }
 }
 
-/// The nearest doubles.
+/// Returns the nearest doubles.
 pub(super) fn to_f64(v: &Rational3) -> Vector {
     v.each_ref().map(|x| x.to_f64().unwrap_or(f64::NAN))
 }
@@ -87,7 +87,7 @@ pub(super) fn axes() -> [Rational3; 3] {
     [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|v| v.map(|x| BigRational::from_integer(BigInt::from(x))))
 }
 
-/// A direction with its largest component 1.
+/// Returns a direction scaled to a largest component of 1.
 pub(super) fn scaled(v: Rational3) -> Rational3 {
     use num_traits::Signed;
     let largest = v.iter().map(Signed::abs).max();

@@ -1,4 +1,4 @@
-//! Directions that points make, and nothing else: lines through three of them or along two rods, planes through four.
+//! Directions defined only by points: lines through three points or along two rods, and planes through four points.
 
 use super::directions::Direction;
 use super::projection::Projection;
@@ -6,7 +6,7 @@ use super::written::{PointPair, pairs};
 use crate::geom::vector::{Vector, add_scaled, cross, dot, length, sub, unit};
 use std::collections::BTreeMap;
 
-/// Points that lines and planes of points are looked for among.
+/// Maximum number of points among which lines and planes are sought.
 const MOST: usize = 60;
 
 fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
@@ -16,7 +16,8 @@ fn direction(unit: Vector, error: f64, plane: bool) -> Direction {
     }
 }
 
-/// Lines along which two pairs of points at least are, that no relation taken so far makes parallel; the most frequent first.
+/// Returns lines with at least two pairs of points along them that no accepted relation makes parallel, the most
+/// frequent first.
 pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
     let points = &at.points;
     if points.len() > MOST {
@@ -58,13 +59,13 @@ pub(super) fn lines(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
     found.into_iter().map(|(_, d)| d).collect()
 }
 
-/// Whether two pairs are parallel by what is taken.
+/// Returns true if accepted relations already make two pairs parallel.
 fn parallel_already(at: &Projection<'_>, a: &PointPair, b: &PointPair) -> bool {
     let [v, w] = [a, b].map(|p| p.along);
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
         .iter()
         .all(|e| {
-            // e · (v × w), by v and by w.
+            // The derivatives of e · (v × w) with respect to v and w.
             let (by_v, by_w) = (cross(w, *e), cross(*e, v));
             let minus = |x: Vector| x.map(|c| -c);
             let gradients = [
@@ -77,7 +78,7 @@ fn parallel_already(at: &Projection<'_>, a: &PointPair, b: &PointPair) -> bool {
         })
 }
 
-/// Normals of planes through four points that no relation taken so far keeps in a plane; the most frequent first.
+/// Returns normals of planes through four points that no accepted relation keeps in a plane, the most frequent first.
 pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
     let points = &at.points;
     let n = points.len();
@@ -85,9 +86,9 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
         return Vec::new();
     }
     let mut found: Vec<(usize, Vector, f64)> = Vec::new();
-    // Planes that were analysed, each with one of its points: three other points of the same plane add nothing. They are ordered by
-    // the size of a component of the normal, since parallel normals have nearly the same. The bits of a float that is not negative
-    // have the order of its values.
+    // Planes that were analysed, each with one of its points. Three other points of the same plane add nothing. They
+    // are ordered by the size of a component of the normal, since parallel normals have nearly the same. The bits of a
+    // nonnegative float have the order of its values.
     let mut seen: BTreeMap<(u64, usize), (Vector, usize)> = BTreeMap::new();
     for i in 0..n {
         for j in 0..i {
@@ -124,7 +125,7 @@ pub(super) fn planes_of(at: &Projection<'_>, errors: &[f64]) -> Vec<Direction> {
                     if near || dot(normal, w).abs() > off * length(w) + errors[l] {
                         continue;
                     }
-                    // The volume of the four, by each of them.
+                    // The derivatives of the volume of the four with respect to each of them.
                     let (by_a, by_b, by_w) = (cross(b, w), cross(w, a), area);
                     let sum = [0, 1, 2].map(|c| -(by_a[c] + by_b[c] + by_w[c]));
                     if !at.implies(&[(i, by_a), (j, by_b), (l, by_w), (k, sum)]) {

@@ -1,17 +1,18 @@
-//! Points moved as little as may be, in errors of their digits, so that linear relations hold; each relation is taken only if all
-//! taken so far still hold with no coordinate moved by more than its digits allow.
+//! Points moved as little as possible, in units of their errors, so that linear relations hold. Each relation is
+//! accepted only if all accepted ones still hold with every coordinate within its digits.
 //!
-//! Most relations follow from a few others, and most hold as they are written. The rows taken are kept in reduced echelon form, which
-//! has few entries. The orthonormal directions, which have many, are computed only when points must be moved.
+//! Most relations follow from a few others, and most hold as written. The accepted rows are kept in reduced echelon
+//! form, which has few entries. The orthonormal directions, which have many, are computed only when points must be
+//! moved.
 
 use super::relations::Relation;
 use super::solve::PointEquation;
 use crate::geom::vector::{Vector, dot, sub};
 
-/// What became of a relation.
+/// Outcome for a relation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Taken {
-    /// It holds now, and did not before.
+    /// It holds now, but did not before.
     New,
     /// It follows from others.
     Implied,
@@ -19,41 +20,42 @@ pub(super) enum Taken {
     Refused,
 }
 
-/// Rounds of alternating projections,
+/// Maximum number of rounds of alternating projections.
 const ROUNDS: usize = 64;
-/// each further than to the box, for speed,
+/// Overrelaxation of each projection to the box.
 const BEYOND: f64 = 1.6;
-/// until no coordinate is so much outside, in errors.
+/// Distance from the box at which the rounds stop, in errors.
 const SLACK: f64 = 0.01;
-/// A relation is told by others where so little of it is left.
+/// Share of a relation below which it depends on others.
 const DEPENDENT: f64 = 1e-7;
-/// A row holds without a move if it is off by no more than this, in errors.
+/// Deviation within which a row holds without a move, in errors.
 const HOLDS: f64 = 1e-7;
 /// The relative rounding error of a sum of numbers that cancel.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Coordinates, in errors, with their coefficients; ascending, and none is zero.
+/// Coordinates, in errors, with their coefficients; ascending, without zeros.
 type Sparse = Vec<(usize, f64)>;
 
-/// Points on the way to where relations hold.
+/// Points during the solution of the relations.
 pub(super) struct Projection<'a> {
     start: Vec<Vector>,
     pub(super) points: Vec<Vector>,
-    /// Error of each point, in each coordinate of the frame; 0 where it must stay.
+    /// Error of each point, in each coordinate of the frame; 0 if it must stay.
     errors: &'a [Vector],
-    /// The displacement of a point that its digits allow, nearest to one that is wished for.
+    /// The displacement of a point within its digits that is nearest to a requested one.
     clipped: &'a dyn Fn(usize, Vector) -> Vector,
-    /// Orthonormal directions that the first rows decide, in errors. A direction is empty if only rounding errors were left of it.
+    /// Orthonormal directions that the first rows determine, in errors. A direction is empty if only rounding errors
+    /// were left of it.
     basis: Vec<Sparse>,
-    /// For each coordinate that the rows decide, its expression in the free coordinates.
+    /// For each coordinate that the rows determine, its expression in the free coordinates.
     told: Vec<Option<Sparse>>,
     /// The entries of `told` before the relation under test, which may still be refused.
     before: Vec<(usize, Option<Sparse>)>,
-    /// Independent relations taken.
+    /// Independent relations accepted.
     pub(super) rows: Vec<PointEquation>,
     /// Sum of squares of moves, in errors.
     pub(super) square: f64,
-    /// Moves may be larger by this than those of relations usually are.
+    /// Factor by which moves may be larger than usual for relations.
     pub(super) bold: f64,
 }
 
@@ -77,25 +79,25 @@ impl<'a> Projection<'a> {
         }
     }
 
-    /// How far a row is from holding, a length times coefficients.
+    /// Returns the deviation of a row from zero, a length times coefficients.
     pub(super) fn residue(&self, row: &PointEquation, normals: &[Vector]) -> f64 {
         let n = normals[row.normal];
         let first = self.points[row.terms[0].0];
-        // Differences from the first point, so that nothing large cancels.
+        // Differences from the first point avoid the cancellation of large numbers.
         row.terms
             .iter()
             .map(|&(p, c)| f64::from(c) * dot(n, sub(self.points[p], first)))
             .sum()
     }
 
-    /// Whether small moves of points in these directions are decided by what is taken.
+    /// Returns true if the accepted rows determine small moves of points in these directions.
     pub(super) fn implies(&self, gradients: &[(usize, Vector)]) -> bool {
         let a = self.weighted(gradients.iter().copied());
         norm(&self.free_of(&a)) <= 1e-6 * norm(&a)
     }
 
-    /// Returns the move that a row asks for now, in errors; `None` if the rows taken so far decide it. [`Projection::make_basis`] must
-    /// have been called.
+    /// Returns the move that a row currently requires, in errors. Returns `None` if the accepted rows determine it.
+    /// [`Projection::make_basis`] must have been called.
     pub(super) fn asks(&self, row: &PointEquation, normals: &[Vector]) -> Option<f64> {
         let a = self.gradient(row, normals);
         let before = norm(&a);
@@ -106,8 +108,8 @@ impl<'a> Projection<'a> {
         (left > DEPENDENT * before).then(|| (self.residue(row, normals) / left).abs())
     }
 
-    /// Takes the relations that hold together within the digits, those refused once more at the end; gives those with what
-    /// became of them.
+    /// Accepts the relations that hold together within the digits, retrying the refused ones at the end. Returns them
+    /// with their outcomes.
     pub(super) fn take_all(
         &mut self,
         found: Vec<Relation>,
@@ -118,7 +120,7 @@ impl<'a> Projection<'a> {
             (r, became, self.rows.len())
         };
         let mut out: Vec<(Relation, Taken, usize)> = found.into_iter().map(each).collect();
-        // What was too far may be near now that others hold.
+        // A relation that was too far off may be near now that others hold.
         for (r, became, rows) in &mut out {
             if *became == Taken::Refused && *rows < self.rows.len() {
                 *became = self.take(&r.rows, normals);
@@ -127,9 +129,9 @@ impl<'a> Projection<'a> {
         out.into_iter().map(|(r, became, _)| (r, became)).collect()
     }
 
-    /// Takes rows all together or not at all.
+    /// Accepts all of some rows, or none of them.
     pub(super) fn take(&mut self, rows: &[PointEquation], normals: &[Vector]) -> Taken {
-        // The rows taken so far decide most rows: no point must be moved to see whether they hold.
+        // The accepted rows determine most rows: no point must be moved to see whether they hold.
         let told: Vec<Option<bool>> = rows.iter().map(|r| self.is_told(r, normals)).collect();
         if told.contains(&Some(false)) {
             return Taken::Refused;
@@ -163,7 +165,8 @@ impl<'a> Projection<'a> {
         Taken::Refused
     }
 
-    /// Moves points, what is taken kept, to where the digits of all allow it; false where they get no nearer to that.
+    /// Moves points to where the digits of all allow it, keeping the accepted rows. Returns false if they stop getting
+    /// nearer.
     ///
     /// Alternating projections: to the box of the digits, and back to where all rows hold.
     fn relax(&mut self, normals: &[Vector]) -> bool {
@@ -221,7 +224,7 @@ impl<'a> Projection<'a> {
         self.weighted(terms.map(|&(p, c)| (p, n.map(|x| f64::from(c) * x))))
     }
 
-    /// Returns what is left of a direction in the coordinates that are free.
+    /// Returns the remainder of a direction in the free coordinates.
     fn free_of(&self, a: &[(usize, f64)]) -> Sparse {
         let mut out = Sparse::new();
         for &(i, x) in a {
@@ -259,14 +262,14 @@ impl<'a> Projection<'a> {
         self.before.push((pivot, self.told[pivot].replace(is)));
     }
 
-    /// Returns whether a row holds; `None` if the rows taken so far do not decide it.
+    /// Returns whether a row holds, or `None` if the accepted rows do not determine it.
     fn is_told(&self, row: &PointEquation, normals: &[Vector]) -> Option<bool> {
         let a = self.gradient(row, normals);
         let before = norm(&a);
         is_dependent(before, &self.free_of(&a)).then(|| self.holds(row, normals, before))
     }
 
-    /// Returns whether a row of the given size holds, except for rounding errors.
+    /// Returns true if a row of the given size holds, except for rounding errors.
     fn holds(&self, row: &PointEquation, normals: &[Vector], size: f64) -> bool {
         let farthest = |p: usize| self.points[p].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let terms = row.terms.iter();
@@ -274,7 +277,7 @@ impl<'a> Projection<'a> {
         self.residue(row, normals).abs() <= 1e-14 * scale + 1e-5 * size
     }
 
-    /// Makes the directions of the rows that have none yet.
+    /// Computes the directions of the rows that have none yet.
     pub(super) fn make_basis(&mut self, normals: &[Vector]) {
         while let Some(row) = self.rows.get(self.basis.len()) {
             let a = self.gradient(row, normals);
@@ -288,7 +291,7 @@ impl<'a> Projection<'a> {
         }
     }
 
-    /// Returns a direction without its parts along the decided directions.
+    /// Returns a direction without its parts along the determined directions.
     fn across(&self, a: &[(usize, f64)]) -> Sparse {
         let mut out = vec![0.0; 3 * self.points.len()];
         a.iter().for_each(|&(i, x)| out[i] = x);
@@ -307,8 +310,8 @@ impl<'a> Projection<'a> {
         }
     }
 
-    /// Takes one row and returns the square of the move. Returns `None` if the row contradicts those taken, or certainly asks for more
-    /// than `most`.
+    /// Accepts one row and returns the square of the move. Returns `None` if the row contradicts the accepted ones, or
+    /// certainly requires more than `most`.
     fn put(&mut self, row: &PointEquation, normals: &[Vector], most: f64) -> Option<f64> {
         let a = self.gradient(row, normals);
         let (before, free) = (norm(&a), self.free_of(&a));
@@ -316,7 +319,7 @@ impl<'a> Projection<'a> {
             return self.holds(row, normals, before).then_some(0.0);
         }
         let residue = self.residue(row, normals);
-        // The part across the decided directions is no longer than the part in the free coordinates.
+        // The part across the determined directions is no longer than the part in the free coordinates.
         if (residue / norm(&free)).powi(2) > most {
             return None;
         }
@@ -343,7 +346,8 @@ impl<'a> Projection<'a> {
     }
 }
 
-/// Returns whether other rows decide a row of the given size: then only rounding errors are left of it in the free coordinates.
+/// Returns true if other rows determine a row of the given size: only rounding errors are left of it in the free
+/// coordinates.
 fn is_dependent(size: f64, free: &[(usize, f64)]) -> bool {
     size == 0.0 || norm(free) < DEPENDENT * size
 }
@@ -362,17 +366,17 @@ fn added(mut terms: Sparse) -> Sparse {
     out
 }
 
-/// The largest move for a relation of so many rows, in errors: of more rows the chance is larger that one is far.
+/// Returns the largest move for a relation of `rows` rows, in errors. With more rows, one is more likely to be far off.
 fn limit(rows: usize) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "rows are three at most")]
     let n = rows as f64;
     (3.0 + 1.5 * n).sqrt()
 }
 
-/// What the squares of moves for so many rows add up to at most, in errors, where rounding made them: a third each on average.
-/// One relation may be far by chance, but not many.
+/// Returns the largest sum of squared moves for `rows` rows, in errors, that rounding can explain: on average a third
+/// each. One relation may be far off by chance, but not many.
 fn most_by_chance(rows: usize) -> f64 {
-    /// Standard deviations.
+    /// Number of standard deviations.
     const FAR: f64 = 6.0;
     #[allow(clippy::cast_precision_loss, reason = "rows are few")]
     let n = rows as f64;

@@ -1,4 +1,4 @@
-//! What points of a scene have to do with each other, as linear relations along its directions.
+//! Relations between points of a scene, as linear equations along its directions.
 
 use super::exact_directions::Exact;
 use super::number::{Rational3, axes, cross, scaled, to_f64};
@@ -6,34 +6,34 @@ use super::solve::PointEquation;
 use super::written::SPREAD;
 use crate::geom::vector::{self, Vector, add, dot, length, sub, unit};
 
-/// What kind of relation.
+/// Kind of a relation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RelationKind {
-    /// Points that are one.
+    /// Points that coincide.
     Coincident,
-    /// Points in a plane square to a direction.
+    /// Points in a plane perpendicular to a direction.
     InPlane,
     /// Points on a line along a direction.
     OnLine,
-    /// Two pairs of points with equal differences, as in a parallelogram or a middle.
+    /// Two pairs of points with equal differences, as in a parallelogram or for a midpoint.
     EqualVectors,
     /// Two pairs of points that are images in one plane.
     Mirrored,
 }
 
-/// A relation, with how far the points as written are from it, in errors.
+/// A relation, with the deviation of the written points from it, in errors.
 #[derive(Debug, Clone)]
 pub(super) struct Relation {
     pub(super) kind: RelationKind,
     pub(super) rows: Vec<PointEquation>,
-    /// How many points share it: planes of many points come before planes of two.
+    /// Number of points that share it: planes of many points come before planes of two.
     pub(super) weight: usize,
     pub(super) off: f64,
-    /// Whether as much is to be expected by chance among so many points and normals.
+    /// Whether such a relation is to be expected by chance among that many points and normals.
     pub(super) weak: bool,
 }
 
-/// Normals that rows are along, exact and as doubles; the first three are the frame's axes.
+/// Normals of the rows, exact and as doubles; the first three are the frame's axes.
 pub(super) struct Normals {
     pub(super) exact: Vec<Rational3>,
     pub(super) real: Vec<Vector>,
@@ -58,24 +58,24 @@ impl Normals {
         self.real.len() - 1
     }
 
-    /// Two normals square to a direction.
+    /// Returns two normals perpendicular to a direction.
     pub(super) fn square_to(&mut self, d: &Rational3) -> [usize; 2] {
         let v = to_f64(d);
         let mut order = [0, 1, 2];
         order.sort_by(|&a, &b| v[a].abs().total_cmp(&v[b].abs()));
-        // Not square to each other, but short numbers.
+        // Not perpendicular to each other, but with short numbers.
         [0, 1].map(|k| self.index(cross(d, &axes()[order[k]])))
     }
 }
 
-/// Which relations a direction is good for.
+/// Kinds of relations for which a direction is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
-    /// Lines along it and planes square to it.
+    /// Lines along it and planes perpendicular to it.
     Both,
     /// Lines along it.
     Lines,
-    /// Planes square to it.
+    /// Planes perpendicular to it.
     Planes,
 }
 
@@ -101,7 +101,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Relations along further directions alone.
+    /// Returns the relations along further directions only.
     pub(super) fn along(&mut self, directions: Vec<(Exact, Use)>) -> Vec<Relation> {
         self.directions = directions;
         let firsts = self.places();
@@ -112,7 +112,7 @@ impl<'a> Finder<'a> {
         out
     }
 
-    /// How far points are apart, that chance is reckoned by.
+    /// Returns the size of the point set, used to estimate chance.
     fn size(&self) -> f64 {
         let far = |p: &Vector| length(sub(*p, self.points[0]));
         self.points
@@ -134,7 +134,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// All relations, the strongest first.
+    /// Returns all relations, the strongest first.
     pub(super) fn all(&mut self) -> Vec<Relation> {
         let firsts = self.places();
         let mut out = Vec::new();
@@ -159,7 +159,7 @@ impl<'a> Finder<'a> {
         out
     }
 
-    /// For each point the first that it is one with.
+    /// Returns for each point the first point that it coincides with.
     fn places(&self) -> Vec<usize> {
         let mut first: Vec<usize> = Vec::new();
         for i in 0..self.points.len() {
@@ -208,7 +208,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Points in planes square to a normal: neighbours in the order along it.
+    /// Finds points in planes perpendicular to a normal: neighbours in the order along it.
     fn planes(&self, normal: usize, normals: usize, places: &[usize], out: &mut Vec<Relation>) {
         let n = unit(self.normals.real[normal]);
         let mut at: Vec<(f64, usize)> = places
@@ -240,7 +240,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Points on lines along a direction, given by two normals square to it.
+    /// Finds points on lines along a direction, given by two normals perpendicular to it.
     fn lines(&self, normals: [usize; 2], places: &[usize], out: &mut Vec<Relation>) {
         let n = normals.map(|k| unit(self.normals.real[k]));
         let off = |i: usize, j: usize| {
@@ -314,7 +314,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Pairs along a direction whose middles are in one plane square to it, with each other or with points.
+    /// Finds pairs along a direction whose middles are in one plane perpendicular to it, with each other or with
+    /// points.
     fn mirrored(&mut self, places: &[usize], out: &mut Vec<Relation>) {
         let directions: Vec<Rational3> = self
             .directions
@@ -325,7 +326,7 @@ impl<'a> Finder<'a> {
         for d in directions {
             let n = self.normals.index(d);
             let unit = unit(self.normals.real[n]);
-            // Twice the middle along the normal, with what it is the middle of.
+            // Twice the middle along the normal, with its points.
             let mut middles: Vec<(f64, usize, usize)> = Vec::new();
             for (k, &i) in places.iter().enumerate() {
                 middles.push((2.0 * dot(unit, self.points[i]), i, i));
@@ -343,7 +344,7 @@ impl<'a> Finder<'a> {
             for w in middles.windows(2) {
                 let ((a, i, j), (b, p, q)) = (w[0], w[1]);
                 let wide = 0.8 * (self.wide(i, j) + self.wide(p, q));
-                // Two points in the plane are told already.
+                // Two points in the plane are found already.
                 if (i == j && p == q) || b - a > wide {
                     continue;
                 }
@@ -363,7 +364,7 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// So many relations are to be expected by chance before one is doubted.
+/// Number of relations expected by chance above which one is doubtful.
 const CHANCE: f64 = 0.02;
 
 #[allow(clippy::cast_precision_loss, reason = "counts are small")]
@@ -371,15 +372,16 @@ fn as_f64(n: usize) -> f64 {
     n as f64
 }
 
-/// How many sets of `k` of `n` values are together by chance, each known to a part of their spread.
+/// Returns the expected number of sets of `k` of `n` values that coincide by chance, each known to a fraction of their
+/// spread.
 fn by_chance(n: usize, k: usize, error: f64) -> f64 {
     let each = |i: usize| as_f64(n - i) / as_f64(i + 1);
     let sets: f64 = (0..k).map(each).product();
-    // Neighbours may be as far apart as four errors on either side.
+    // Neighbours may be up to four errors apart on either side.
     sets * (8.0 * error).powi(i32::try_from(k).unwrap_or(i32::MAX) - 1)
 }
 
-/// The strongest first.
+/// Sorts the strongest first.
 fn sort(out: &mut [Relation]) {
     let rank = |r: &Relation| match r.kind {
         RelationKind::Coincident => 0,

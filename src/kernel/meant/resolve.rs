@@ -1,4 +1,4 @@
-//! The scene that is meant, and others that the digits do not rule out.
+//! The recovered scene, and others that the digits do not exclude.
 
 use super::directions::Caution;
 use super::exact_directions::{Exact, placed};
@@ -11,36 +11,37 @@ use crate::geom::vector::Vector;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// What the digits of a scene allow.
+/// The scenes that the digits allow.
 #[derive(Debug, Clone)]
 pub struct Resolved {
     /// The scene with the most relations.
     pub scene: MeantScene,
-    /// Others that the digits do not rule out: with relations that are all but within them, and without those that as well are
-    /// there by chance.
+    /// Others that the digits do not exclude: with relations slightly outside the digits, and without those that may
+    /// equally exist by chance.
     pub others: Vec<MeantScene>,
 }
 
-/// Sizes smaller than this, and larger than its inverse, are extreme.
+/// Sizes below this, and above its inverse, are extreme.
 const SMALL: f64 = 1e-6;
-/// Directions of points that further ones may be square to; numbers would grow long in a chain of them.
+/// Maximum number of directions of points to which further ones may be perpendicular. Numbers would grow long in a
+/// chain of them.
 const MOST: usize = 2;
-/// A relation that was not taken and asks for no larger move, in errors, may hold in truth.
+/// Largest move, in errors, required by a refused relation that may hold all the same.
 const LEFT_OUT: f64 = 4.0;
-/// Moves larger by this than those of relations usually are speak against a relation for sure.
+/// Factor of the usual moves above which a relation is certainly refuted.
 const BOLD: f64 = 1.6;
 
-/// The scene that is meant; none where its relations cannot be solved within the digits.
+/// Recovers the intended scene. Returns `None` if its relations cannot be solved within the digits.
 ///
 /// # Complexity
-/// O(p²) pairs of p points, held against each other and against d directions; then O(r² p) for r relations.
+/// O(p²) pairs of p points, compared with each other and with d directions; then O(r² p) for r relations.
 #[must_use]
 pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
     let size = written.size();
     if (SMALL..SMALL.recip()).contains(&size) {
         return resolved(written);
     }
-    // Squares of lengths such as 10^-200 are nothing in doubles.
+    // Squares of lengths such as 10^-200 underflow in doubles.
     let power = -size.log10().floor();
     if !power.is_finite() {
         return None;
@@ -57,7 +58,7 @@ pub fn resolve(written: &WrittenScene) -> Option<Resolved> {
     Some(out)
 }
 
-/// The same of a geometry of no extreme size.
+/// Recovers the scene of a geometry of moderate size.
 fn resolved(written: &WrittenScene) -> Option<Resolved> {
     let usual = Caution {
         bold: 1.0,
@@ -83,16 +84,16 @@ fn resolved(written: &WrittenScene) -> Option<Resolved> {
     Some(Resolved { scene, others })
 }
 
-/// How many relations are doubtful.
+/// Numbers of doubtful relations.
 struct Doubts {
     left_out: usize,
     by_chance: usize,
-    /// Lines and planes of points that are nearly those that others make.
+    /// Lines and planes of points that are close to those of others.
     of_points: usize,
 }
 
 impl Doubts {
-    /// Of relations with what became of them, of which those from `first` on are of points alone.
+    /// Returns the numbers of doubtful relations by their outcomes; those from `first` on involve only points.
     fn new(
         became: &[(Relation, Taken)],
         first: usize,
@@ -100,7 +101,7 @@ impl Doubts {
         normals: &Normals,
         images: &Images,
     ) -> Doubts {
-        // What follows from others to rounding alone does not hold.
+        // A relation that follows from others only up to rounding does not hold.
         let broken = |(r, b): &&(Relation, Taken)| {
             *b == Taken::Refused
                 || (*b == Taken::Implied && !r.rows.iter().all(|w| images.holds(w)))
@@ -122,7 +123,8 @@ impl Doubts {
     }
 }
 
-/// A scene, how doubtful it is, and where it is doubted the same without lines and planes that points alone make.
+/// Recovers a scene and counts its doubtful relations. If it is doubtful, also returns it without lines and planes
+/// defined only by points.
 fn resolve_with(
     written: &WrittenScene,
     caution: Caution,
@@ -144,7 +146,7 @@ fn resolve_with(
     let found = keep(finder.all());
     became.extend(solved.take_all(found, &finder.normals.real));
     let (first, plain) = (became.len(), StageMark::of(&solved));
-    // What points alone make: lines and planes that nothing above keeps.
+    // Lines and planes defined only by points that no relation above determines.
     let directions_of_rays = fixed.len();
     for further in [of_points::lines, of_points::planes_of] {
         for d in further(&solved, &stage.errors) {
@@ -152,7 +154,7 @@ fn resolve_with(
             let of = if d.plane { Use::Planes } else { Use::Lines };
             let found = keep(finder.along(vec![(e.clone(), of)]));
             let found = solved.take_all(found, &finder.normals.real);
-            // Further ones may be square to it.
+            // Further ones may be perpendicular to it.
             if fixed.len() < directions_of_rays + MOST
                 && found.iter().any(|(_, b)| *b == Taken::New)
             {

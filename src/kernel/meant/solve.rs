@@ -1,9 +1,9 @@
-//! Linear relations solved exactly: free coordinates keep decimals, the others follow.
+//! Exact solution of linear relations: free coordinates keep decimals, the others follow.
 
-/// A pivot is at least this part of the largest.
+/// Minimum size of a pivot, as a share of the largest.
 const LARGE: f64 = 0.2;
-/// Operations on words after which it is given up: a second or two. Numbers grow long where many relations of no pattern lean on
-/// each other.
+/// Number of operations on words after which the solution is abandoned: a second or two. Numbers grow long if many
+/// relations without a pattern depend on each other.
 const WORK: u64 = 2_500_000_000;
 
 fn bits(x: &BigRational) -> u64 {
@@ -14,8 +14,8 @@ fn words(x: &BigInt) -> u64 {
     x.bits() / 64 + 1
 }
 
-/// Σ coefficient · coordinate + constant = 0 in whole numbers: a fraction for each would be reduced at every step, which is most
-/// of the time.
+/// Σ coefficient · coordinate + constant = 0 in whole numbers. Fractions would be reduced at every step, which takes
+/// most of the time.
 struct Equation {
     of: BTreeMap<usize, BigInt>,
     constant: BigInt,
@@ -33,7 +33,7 @@ impl Equation {
             .for_each(change);
     }
 
-    /// Adds a multiple of another equation; operations on words that it took.
+    /// Adds a multiple of another equation. Returns the number of operations on words.
     fn add(&mut self, by: &BigInt, other: &Equation) -> u64 {
         let mut spent = 0;
         for (&v, x) in &other.of {
@@ -45,18 +45,19 @@ impl Equation {
         spent
     }
 
-    /// Divides by what all numbers share; operations on words that it took.
+    /// Divides by the common factor of all numbers. Returns the number of operations on words.
     fn shorten(&mut self) -> u64 {
         let mut spent = 0;
         let mut shared = BigInt::zero();
         let mut all: Vec<&BigInt> = self.numbers().filter(|x| !x.is_zero()).collect();
-        // What is shared is no longer than the shortest.
+        // The common factor is no longer than the shortest number.
         all.sort_by_key(|x| x.bits());
         for x in all {
             if shared.is_one() {
                 break;
             }
-            // The rest is no longer than what is shared, which is soon short: one long divisor is sought, not one for each number.
+            // The remainder is no longer than the common factor, which is soon short. So one long divisor is computed,
+            // not one for each number.
             let rest = if shared.is_zero() {
                 x.abs()
             } else {
@@ -72,31 +73,31 @@ impl Equation {
     }
 }
 
-/// An equation that says what a coordinate is; no other solved one has that coordinate.
+/// An equation that determines one coordinate, which occurs in no other solved equation.
 struct Solved {
     pivot: usize,
     equation: Equation,
 }
 
 impl Solved {
-    /// What the coordinate is counted.
+    /// Returns the coefficient of the coordinate.
     fn unit(&self) -> &BigInt {
         &self.equation.of[&self.pivot]
     }
 }
 
-/// What rows say of coordinates, solved one after another.
+/// The equations of rows for coordinates, solved one after another.
 #[derive(Default)]
 struct Solution {
     solved: Vec<Solved>,
-    /// Which solved equation has a coordinate for its pivot.
+    /// The index of the solved equation with each pivot coordinate.
     by_pivot: BTreeMap<usize, usize>,
-    /// Operations on words.
+    /// Number of operations on words.
     spent: u64,
 }
 
 impl Solution {
-    /// Puts in what is solved; what one whole number stands for before is counted so often afterwards.
+    /// Substitutes the solved coordinates. Returns the factor by which the numbers of the row are multiplied.
     fn put_in(&mut self, row: &mut Equation) -> BigInt {
         let by_pivot = &self.by_pivot;
         let known = row.of.keys().filter_map(|v| by_pivot.get(v));
@@ -114,7 +115,7 @@ impl Solution {
         times
     }
 
-    /// Solves a row for one of its coordinates; `count` is how often each of its numbers is counted.
+    /// Solves a row for one of its coordinates; `count` is the factor of its numbers.
     fn take(&mut self, mut row: Equation, mut count: BigInt) -> Option<()> {
         count *= self.put_in(&mut row);
         let Some(pivot) = pivot(&row, &count) else {
@@ -143,10 +144,10 @@ impl Solution {
     }
 }
 
-/// Of coordinates large enough the one of the shortest number, so that numbers stay short.
+/// Returns the pivot: among large enough coordinates the one with the shortest number, so that numbers stay short.
 fn pivot(row: &Equation, count: &BigInt) -> Option<usize> {
     let longest = row.of.values().map(BigInt::bits).max()?;
-    // Doubles hold a thousand bits; only the sizes beside the largest matter.
+    // Doubles cover about a thousand bits; only the sizes close to the largest matter.
     let beyond = longest.saturating_sub(512);
     let size = |x: &BigInt| (x.abs() >> beyond).to_f64().unwrap_or(0.0);
     let largest = row.of.values().map(size).fold(0.0, f64::max);
@@ -155,7 +156,7 @@ fn pivot(row: &Equation, count: &BigInt) -> Option<usize> {
     large.min_by_key(|x| length(x.1)).map(|(v, _)| *v)
 }
 
-/// A row without the coordinates that are `fixed`, and how often its numbers are counted.
+/// Returns a row without the `fixed` coordinates, and the factor of its numbers.
 fn equation(
     row: &PointEquation,
     normals: &[Rational3],
@@ -184,8 +185,8 @@ fn equation(
     (Equation { of, constant }, count)
 }
 
-/// Points that fulfil rows exactly; none where rows contradict each other, or numbers grow too long. `value` gives what a
-/// coordinate is where it is free, `fixed` whether it must stay.
+/// Returns points that satisfy rows exactly, or `None` if rows contradict each other or numbers grow too long. `value`
+/// gives a coordinate if it is free, `fixed` whether it must stay.
 ///
 /// # Complexity
 /// O(r² w) operations on whole numbers for r rows of w coordinates.
@@ -196,7 +197,7 @@ pub(super) fn solve(
     value: impl Fn(usize, usize) -> BigRational,
     fixed: impl Fn(usize, usize) -> bool,
 ) -> Option<Vec<Rational3>> {
-    // Short normals first: what is along an axis of the frame takes one coordinate for another.
+    // Short normals come first: a row along an axis of the frame replaces one coordinate by another.
     let width = |r: &&PointEquation| -> u64 {
         let n = &normals[r.normal];
         n.iter()
@@ -215,7 +216,7 @@ pub(super) fn solve(
         .collect();
     for s in &solution.solved {
         let others = s.equation.of.iter().filter(|x| *x.0 != s.pivot);
-        // All over one denominator: reduced once.
+        // All numbers are over one denominator, reduced once.
         let terms: Vec<(&BigInt, &BigRational)> =
             others.map(|(v, by)| (by, &out[v / 3][v % 3])).collect();
         let denom = common_denominator(terms.iter().map(|t| t.1));
@@ -237,17 +238,17 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
-/// Σ coefficient · normal · point = 0, the coefficients adding up to zero.
+/// Σ coefficient · normal · point = 0, with coefficients that add up to zero.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PointEquation {
     /// Points with their coefficients.
     pub(crate) terms: Vec<(usize, i32)>,
-    /// Which of the normals.
+    /// Index of the normal.
     pub(crate) normal: usize,
 }
 
 impl PointEquation {
-    /// One with the coefficients of each point added up, and without those that cancel.
+    /// Creates an equation with the coefficients of each point added up, without those that cancel.
     pub(crate) fn sum(terms: &[(usize, i32)], normal: usize) -> PointEquation {
         let mut sum = BTreeMap::new();
         for &(point, c) in terms {

@@ -1,4 +1,4 @@
-//! A scene between its two frames: what is known before points are moved, and the exact scene that comes of it.
+//! A scene between its two frames: the data before points are moved, and the resulting exact scene.
 
 use super::MeantScene;
 use super::directions::{Caution, Directions, WITHIN, of_rays};
@@ -15,13 +15,14 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 
-/// Rounding hardly moves all numbers of a relation by nearly half a unit, and to one side: those that need it are off by design.
+/// Rounding is unlikely to move all numbers of a relation by nearly half a unit to one side. Relations that need this
+/// are off by design.
 const NEVER_ALL: f64 = 0.95;
 
-/// What is known of a scene before its points are moved.
+/// Data of a scene before its points are moved.
 pub(super) struct Stage<'a> {
     written: &'a WrittenScene,
-    /// Moves of so many halves of a last digit are within it.
+    /// Maximum move within a last digit, in halves of it.
     within: f64,
     floor: f64,
     size: f64,
@@ -31,9 +32,9 @@ pub(super) struct Stage<'a> {
     origin: usize,
     of: Directions,
     exact: Vec<Exact>,
-    /// Which direction is that of the symmetry that is stated.
+    /// Index of the direction of the stated symmetry.
     symmetric: Option<usize>,
-    /// Which axis of the file each axis of the frame is.
+    /// The axis of the file that each axis of the frame equals.
     same: [Option<usize>; 3],
     /// The error of each point, in each coordinate.
     pub(super) errors: Vec<f64>,
@@ -41,7 +42,7 @@ pub(super) struct Stage<'a> {
     pub(super) inside: Vec<Vector>,
 }
 
-/// Decimals that leave two digits beyond an error.
+/// Returns the number of decimals that leave two digits beyond an error.
 fn places(error: f64) -> u32 {
     let digits = (-error.log10()).ceil() + 2.0;
     #[allow(
@@ -101,7 +102,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// The directions of the scene, exact; the file's own axes too, where its frame is the scene's.
+    /// Returns the exact directions of the scene. They include the file's own axes if its frame is the scene's.
     pub(super) fn directions(&self) -> Vec<(Exact, Use)> {
         let own = number::axes().into_iter().map(Exact::of_axis);
         let own = own.filter(|_| self.frame.rotation.is_none());
@@ -109,7 +110,7 @@ impl<'a> Stage<'a> {
         all.map(|e| (e, Use::Both)).collect()
     }
 
-    /// The relations of the symmetry that is stated.
+    /// Returns the relations of the stated symmetry.
     pub(super) fn stated(&self, normals: &mut Normals) -> Vec<Relation> {
         match (&self.written.symmetry, self.symmetric) {
             (Some(s), Some(own)) => s.relations(&self.exact[own].exact, &self.inside, normals),
@@ -117,13 +118,13 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Whether a coordinate must stay: it is exact, along an axis that both frames have.
+    /// Returns true if a coordinate must stay, because it is exact along an axis that both frames share.
     fn stays(&self, p: usize, k: usize) -> bool {
         let half = &self.written.points[p].half;
         (p == self.origin && *half == [0.0; 3]) || self.same[k].is_some_and(|c| half[c] == 0.0)
     }
 
-    /// The error of each coordinate in the scene's frame; 0 where it must stay.
+    /// Returns the error of each coordinate in the scene's frame; 0 if it must stay.
     pub(super) fn weights(&self) -> Vec<Vector> {
         let weight = |p: usize, k: usize| match self.same[k] {
             _ if self.stays(p, k) => 0.0,
@@ -134,7 +135,7 @@ impl<'a> Stage<'a> {
         all.map(|p| [0, 1, 2].map(|k| weight(p, k))).collect()
     }
 
-    /// The displacement in the scene's frame that the digits of a point allow, nearest to another.
+    /// Returns the displacement nearest to `by` that the digits of the point allow, in the scene's frame.
     pub(super) fn clipped(&self, p: usize, by: Vector) -> Vector {
         let (out, half) = (self.frame.outside(by), &self.written.points[p].half);
         let most = half.map(|h| self.within * h.max(self.floor));
@@ -145,7 +146,7 @@ impl<'a> Stage<'a> {
         self.frame.inside(inside)
     }
 
-    /// The scene of rows that hold at some points, exact; none where they contradict each other.
+    /// Returns the exact scene of rows that hold at some points, or `None` if they contradict each other.
     pub(super) fn scene(
         &self,
         rows: &[PointEquation],
@@ -185,7 +186,7 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// The rays in the file's frame; those that are exact as they are written.
+    /// Returns the rays in the file's frame; exact ones stay as written.
     fn rays(&self) -> Vec<Rational3> {
         let minus_one = BigRational::from_integer(BigInt::from(-1));
         let outside: Vec<Rational3> = self
@@ -202,7 +203,7 @@ impl<'a> Stage<'a> {
         all.map(one).collect()
     }
 
-    /// The largest move of a number, in halves of its last digit.
+    /// Returns the largest move of a number, in halves of its last digit.
     fn moved(&self, points: &[Rational3], rays: &[Rational3]) -> f64 {
         let point = points.iter().zip(&self.written.points).flat_map(|(x, w)| {
             let by = to_f64(&[0, 1, 2].map(|k| &x[k] - &w.exact[k]));
@@ -217,7 +218,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Whether the digits of the rays of a direction allow another.
+/// Returns a test whether the digits of the rays of a direction allow another direction.
 fn fits<'a>(
     written: &'a WrittenScene,
     of: &Directions,
@@ -230,8 +231,8 @@ fn fits<'a>(
     }
 }
 
-/// The directions of a scene, those that are square or in one plane made so together; and which of them is that of the symmetry
-/// that is stated.
+/// Returns the directions of a scene, with perpendicular and coplanar ones adjusted together, and the index of the
+/// direction of the stated symmetry.
 fn directions(
     written: &WrittenScene,
     points: &[Vector],
@@ -251,7 +252,7 @@ fn directions(
     (of, symmetric)
 }
 
-/// The points of a projection, and how many rows it has taken: a scene on the way.
+/// The points of a projection and the number of rows it has accepted: a snapshot.
 pub(super) struct StageMark {
     pub(super) rows: usize,
     pub(super) points: Vec<Vector>,

@@ -1,6 +1,7 @@
-//! The symmetry that a file states: joints that are mirror images of each other, or become each other by half a turn.
+//! The symmetry stated in a file: joints that are mirror images of each other, or map to each other by half a turn.
 //!
-//! What is stated is no guess: its relations come before all others. They too are taken only where the digits allow them.
+//! A stated symmetry is not a guess, so its relations come before all others. They are also accepted only if the digits
+//! allow them.
 
 use super::directions::{Direction, Directions};
 use super::number::Rational3;
@@ -11,13 +12,14 @@ use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, sub, unit
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// Images nearer than so many errors tell no direction.
+/// Distance of images, in errors, below which they do not determine a direction.
 const FAR: f64 = 30.0;
-/// No direction of doubles is known better `[rad]`.
+/// Accuracy limit of a direction in doubles `[rad]`.
 const LEAST: f64 = 1e-15;
 
 impl WrittenSymmetry {
-    /// The normal of the plane, or the axis of the half turn, with its error `[rad]`; none where images are too near each other.
+    /// Returns the normal of the plane, or the axis of the half turn, with its error `[rad]`. Returns `None` if images
+    /// are too close to each other.
     fn direction(&self, points: &[Vector], errors: &[f64]) -> Option<(Vector, f64)> {
         let apart = self.points.iter().filter_map(|&[a, b]| {
             let (w, error) = (sub(points[b], points[a]), errors[a] + errors[b]);
@@ -27,7 +29,7 @@ impl WrittenSymmetry {
         apart.sort_by(|a, b| length(b.0).total_cmp(&length(a.0)));
         let &(first, error) = apart.first()?;
         if self.turned {
-            // Images by half a turn are apart square to its axis.
+            // Images by half a turn differ by a vector perpendicular to its axis.
             let other = |w: &Vector| length(cross(first, *w)) / length(first);
             let second = apart
                 .iter()
@@ -36,14 +38,14 @@ impl WrittenSymmetry {
             let off = error / length(first) + second.1 / width;
             return (width > FAR * second.1).then(|| (unit(cross(first, second.0)), off));
         }
-        // Long differences know it best.
+        // Long differences are the most accurate.
         let sum = apart.iter().fold([0.0; 3], |sum, (w, e)| {
             add_scaled(sum, dot(first, *w).signum() / (e * e), *w)
         });
         Some((unit(sum), error / length(first)))
     }
 
-    /// Where a direction goes.
+    /// Returns the image of a direction.
     fn image(&self, n: Vector, v: Vector) -> Vector {
         let along = n.map(|x| 2.0 * dot(n, v) * x);
         if self.turned {
@@ -53,8 +55,8 @@ impl WrittenSymmetry {
         }
     }
 
-    /// Adds its own direction where no ray has it, and makes images of those that are so within their errors; gives the place
-    /// of its own.
+    /// Adds its own direction if no ray has it, and makes directions exact images if they are within their errors.
+    /// Returns the index of the added direction.
     pub(super) fn put(
         &self,
         of: &mut Directions,
@@ -82,7 +84,7 @@ impl WrittenSymmetry {
         Some(at)
     }
 
-    /// Directions that are each other's images, and not one.
+    /// Returns directions that are images of each other and distinct.
     pub(super) fn pairs(&self, of: &Directions) -> Vec<(usize, usize)> {
         let each = |&[r, s]: &[usize; 2]| (of.of_ray[r].0, of.of_ray[s].0);
         let mut out: Vec<(usize, usize)> = self.rays.iter().map(each).collect();
@@ -92,7 +94,7 @@ impl WrittenSymmetry {
         out
     }
 
-    /// Where an exact direction goes, exactly.
+    /// Returns the exact image of an exact direction.
     pub(super) fn image_exactly(&self, n: &Rational3, v: &Rational3) -> Rational3 {
         let dot = |a: &Rational3, b: &Rational3| &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2];
         let two = BigRational::from_integer(BigInt::from(2));
@@ -101,7 +103,7 @@ impl WrittenSymmetry {
         [0, 1, 2].map(|k| (&v[k] - &by * &n[k]) * &sign)
     }
 
-    /// Its relations, by its own direction, exact.
+    /// Returns its relations for its own exact direction.
     pub(super) fn relations(
         &self,
         own: &Rational3,
@@ -117,7 +119,8 @@ impl WrittenSymmetry {
         let Some(&first) = longest else {
             return Vec::new();
         };
-        // Images are apart along the normal of a mirror, or square to an axis; their middles are in the plane, or on the axis.
+        // Images differ along the normal of a mirror, or perpendicular to an axis. Their middles are in the plane, or
+        // on the axis.
         let (difference, middle) = if self.turned {
             (vec![along], across.to_vec())
         } else {

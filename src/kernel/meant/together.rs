@@ -1,5 +1,5 @@
-//! Directions turned as little as may be, in their errors, so that those that are square or in one plane are so exactly; each
-//! relation is taken only if all taken so far still hold within what the digits allow.
+//! Directions turned as little as possible, in units of their errors, so that perpendicular and coplanar ones become
+//! exactly so. Each relation is accepted only if all accepted ones still hold within the digits.
 
 use super::directions::Direction;
 use crate::geom::vector::{Vector, add_scaled, cross, dot, length, unit};
@@ -11,17 +11,17 @@ enum DirectionRelation {
     InPlane(usize, usize, usize),
 }
 
-/// Directions that planes are looked for among.
+/// Maximum number of directions among which planes are sought.
 const MOST: usize = 40;
-/// Two directions with a smaller sine give no plane.
+/// Minimum sine between two directions that define a plane.
 const APART: f64 = 0.02;
-/// A relation may turn directions by so many errors in all.
+/// Maximum total turn of the directions for a relation, in errors.
 const LIMIT: f64 = 2.0;
-/// What is left of a relation by others.
+/// Remainder of a relation below which it depends on others.
 const DEPENDENT: f64 = 1e-6;
 
 impl DirectionRelation {
-    /// How far from holding, and the change of that with each direction.
+    /// Returns the deviation, and its change with each direction.
     fn at(self, units: &[Vector]) -> (f64, Vec<(usize, Vector)>) {
         match self {
             DirectionRelation::Square(i, j) => {
@@ -37,7 +37,7 @@ impl DirectionRelation {
     }
 }
 
-/// Turns by which relations hold, in errors: one pair of numbers a direction.
+/// Turns by which relations hold, in errors: one pair of numbers per direction.
 struct Turns<'a> {
     all: &'a [Direction],
     basis: Vec<Vec<f64>>,
@@ -64,7 +64,7 @@ impl Turns<'_> {
         self.all.iter().enumerate().map(turned).collect()
     }
 
-    /// Makes a row hold that is off by `residue`; the move in errors, none where it contradicts.
+    /// Makes a row hold that deviates by `residue`. Returns the move in errors, or `None` if it contradicts the others.
     fn put(&mut self, mut a: Vec<f64>, residue: f64) -> Option<f64> {
         let norm = |a: &[f64]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
         let before = norm(&a);
@@ -92,7 +92,7 @@ impl Turns<'_> {
     }
 }
 
-/// Relations that may hold within the errors, those of two directions first, the nearest first.
+/// Returns the relations that may hold within the errors, those of two directions first, the nearest first.
 fn candidates(all: &[Direction]) -> Vec<DirectionRelation> {
     let units: Vec<Vector> = all.iter().map(|d| d.unit).collect();
     let n = all.len();
@@ -133,11 +133,11 @@ fn candidates(all: &[Direction]) -> Vec<DirectionRelation> {
     out.into_iter().map(|x| x.2).collect()
 }
 
-/// Turns directions so that all relations hold that can together; `allowed` says whether the digits allow a direction, and turns
-/// may be larger by `bold` than they usually are.
+/// Turns directions so that all compatible relations hold. `allowed` says whether the digits allow a direction, and
+/// turns may be larger by `bold` than usual.
 ///
 /// # Complexity
-/// O(d³) relations of d directions, each held against those taken.
+/// O(d³) relations of d directions, each compared with the accepted ones.
 pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize, Vector) -> bool) {
     let found = candidates(all);
     let mut turns = Turns {
@@ -167,7 +167,7 @@ pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize,
             turns.basis.truncate(rows);
         }
     }
-    // Newton's method: linear so far, exact to rounding after.
+    // Newton's method: the relations held linearly so far, and then hold exactly up to rounding.
     for _ in 0..4 {
         let (at, last) = (turns.units(), turns.turns.clone());
         let mut next = Turns {

@@ -1,4 +1,4 @@
-//! What is written: points and directions, each number with half a unit of its last digit.
+//! The geometry as written: points and directions, each number with half a unit of its last digit.
 
 use super::number::Rational3;
 use crate::geom::vector::{Vector, dot, length, sub, unit};
@@ -6,55 +6,55 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-/// A point as it is written.
+/// A point as written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenPoint {
     /// Its coordinates.
     pub value: Vector,
-    /// The same exactly.
+    /// Its exact coordinates.
     pub exact: Rational3,
-    /// Half a unit of the last digit of each; 0 where it is exact.
+    /// Half a unit of the last digit of each; 0 if it is exact.
     pub half: Vector,
 }
 
-/// A direction as it is written, of any length; its sign says nothing.
+/// A direction as written, of any length; its sign has no meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ray {
     /// Its components.
     pub value: Vector,
-    /// The same exactly.
+    /// Its exact components.
     pub exact: Rational3,
-    /// Half a unit of the last digit of each; 0 where it is exact.
+    /// Half a unit of the last digit of each; 0 if it is exact.
     pub half: Vector,
 }
 
-/// Points and directions of a scene that are each other's images, or their own, as a file states it.
+/// Points and directions of a scene that are images of each other or of themselves, as stated in a file.
 #[derive(Debug, Clone)]
 pub struct WrittenSymmetry {
-    /// Whether half a turn carries them over, and not a mirror.
+    /// Whether the map is half a turn and not a mirror.
     pub turned: bool,
-    /// Pairs of points; a point that is its own image with itself.
+    /// Pairs of points; a point that is its own image is paired with itself.
     pub points: Vec<[usize; 2]>,
-    /// Pairs of rays; a ray that is its own image with itself.
+    /// Pairs of rays; a ray that is its own image is paired with itself.
     pub rays: Vec<[usize; 2]>,
 }
 
-/// The geometry of a file as it is written.
+/// The geometry of a file as written.
 #[derive(Debug, Clone, Default)]
 pub struct WrittenScene {
     /// Its points.
     pub points: Vec<WrittenPoint>,
     /// Its directions.
     pub rays: Vec<Ray>,
-    /// What it states of images.
+    /// The stated symmetry.
     pub symmetry: Option<WrittenSymmetry>,
 }
 
-/// Relative errors of double precision, times ten: no number is known better.
+/// Relative accuracy limit: ten times the error of double precision.
 const DOUBLE: f64 = 2e-15;
 
 impl WrittenScene {
-    /// The largest distance between two points; 1 where there is one place alone.
+    /// Returns the largest distance between two points, or 1 if all points coincide.
     pub(super) fn size(&self) -> f64 {
         let of = |i: usize| {
             let each = self.points.iter().map(move |p| p.value[i]);
@@ -68,7 +68,8 @@ impl WrittenScene {
         }
     }
 
-    /// The same with lengths ten times larger so many times; none where that is too large or small for doubles.
+    /// Returns the scene with lengths multiplied by a power of ten, or `None` if the result is too large or small for
+    /// doubles.
     pub(super) fn resized(&self, power: i32) -> Option<WrittenScene> {
         let (by, exactly) = (
             10f64.powi(power),
@@ -89,18 +90,18 @@ impl WrittenScene {
         (finite && by.is_finite()).then_some(out)
     }
 
-    /// The farthest coordinate from zero, that double precision is relative to.
+    /// Returns the largest absolute coordinate, to which double precision is relative.
     fn reach(&self) -> f64 {
         let all = self.points.iter().flat_map(|p| p.value);
         all.fold(0.0, |a: f64, x| a.max(x.abs()))
     }
 
-    /// The least error of a coordinate: that of double precision.
+    /// Returns the minimum error of a coordinate: that of double precision.
     pub(super) fn floor(&self) -> f64 {
         DOUBLE * self.reach().max(self.size())
     }
 
-    /// How far each point may be from where it is written, in each coordinate.
+    /// Returns the possible error of each point, in each coordinate.
     pub(super) fn errors(&self) -> Vec<f64> {
         let least = self.floor();
         let largest = |p: &WrittenPoint| p.half.iter().fold(least, |a, &h| a.max(h));
@@ -109,12 +110,12 @@ impl WrittenScene {
 }
 
 impl Ray {
-    /// Its unit vector.
+    /// Returns its unit vector.
     pub(super) fn unit(&self) -> Vector {
         unit(self.value)
     }
 
-    /// The angle that it may be off by `[rad]`; 0 where it is exact.
+    /// Returns its possible angular error `[rad]`; 0 if it is exact.
     pub(super) fn error(&self) -> f64 {
         if self.is_exact() {
             return 0.0;
@@ -122,7 +123,8 @@ impl Ray {
         (length(self.half) / length(self.value)).max(DOUBLE)
     }
 
-    /// How far its components would move, in halves of their last digits or what is least, to have a direction.
+    /// Returns how far its components would move to have a direction, in halves of their last digits or in the minimum
+    /// error.
     pub(super) fn moved(&self, v: Vector, least: f64) -> f64 {
         let least = least.max(DOUBLE * length(self.value));
         let at = |along: f64| {
@@ -130,20 +132,20 @@ impl Ray {
                 .map(|k| (along * v[k] - self.value[k]).abs() / self.half[k].max(least))
                 .fold(0.0, f64::max)
         };
-        // A component that is exact says how long the direction is, if any is.
+        // An exact component determines the length of the direction, if there is one.
         let exact = (0..3).filter(|&k| self.half[k] == 0.0 && self.value[k] != 0.0 && v[k] != 0.0);
         exact
             .map(|k| at(self.value[k] / v[k]))
             .fold(at(dot(v, self.value) / dot(v, v)), f64::min)
     }
 
-    /// Whether every component is exact.
+    /// Returns true if every component is exact.
     pub(super) fn is_exact(&self) -> bool {
         self.half == [0.0; 3]
     }
 }
 
-/// Two points' difference, and how far each of its components may be off.
+/// The difference of two points, and the possible error of its components.
 pub(super) struct PointPair {
     pub(super) ends: [usize; 2],
     pub(super) along: Vector,
@@ -152,7 +154,7 @@ pub(super) struct PointPair {
     pub(super) error: f64,
 }
 
-/// All pairs of points that are not one, the longest first.
+/// Returns all pairs of distinct points, the longest first.
 pub(super) fn pairs(points: &[Vector], errors: &[f64]) -> Vec<PointPair> {
     let mut out = Vec::new();
     for i in 0..points.len() {
@@ -174,7 +176,7 @@ pub(super) fn pairs(points: &[Vector], errors: &[f64]) -> Vec<PointPair> {
     out
 }
 
-/// The error of a point along a direction, in errors of a coordinate: three of them may add up to 1.73, and hardly do.
+/// The error of a point along a direction, in errors of a coordinate. Three of them may add up to 1.73, but hardly do.
 pub(super) const SPREAD: f64 = 1.5;
-/// Points nearer than so many errors say nothing of a direction.
+/// Distance of points, in errors, below which they do not determine a direction.
 const FAR: f64 = 30.0;

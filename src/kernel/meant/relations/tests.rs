@@ -1,8 +1,9 @@
-//! What is taken for a relation, and what is not: points a little too far apart, planes that chance makes, pairs askew.
+//! Which relations are accepted, and which are not: points slightly too far apart, planes formed by chance, misaligned
+//! pairs.
 
 use super::*;
 
-/// All relations of points that are known to this error, along the frame's x.
+/// Returns all relations of points known to this error, along the frame's x.
 fn relations(points: &[Vector], error: f64) -> Vec<Relation> {
     let [x, ..] = axes();
     let errors = vec![error; points.len()];
@@ -19,17 +20,18 @@ fn points_are_one_within_their_errors_alone() {
         let all = relations(&[[0.3, 0.7, 0.1], [0.3 + d, 0.7, 0.1]], 1e-6);
         of_kind(&all, RelationKind::Coincident).len()
     };
-    // Two errors of a millionth each, half as much again.
+    // Two errors of a millionth each, plus half of that.
     assert_eq!([0.0, 1e-6, 2.9e-6].map(apart), [1; 3]);
     assert_eq!([3.1e-6, 1e-5, 1e-4, 1e-3].map(apart), [0; 4]);
 }
 
-/// Two of three points in a plane by six digits are meant to be; two of three hundred are so by chance.
+/// Checks that two of three points in a plane by six digits are intended to be, and that two of three hundred are there
+/// by chance.
 #[test]
 fn a_plane_that_chance_makes_is_weak() {
     let weak = |n: usize| {
         let mut points = vec![[0.0, 0.0, 0.0], [0.0, 0.31, 0.72]];
-        // The others stand at distances along x that are nowhere equal.
+        // The others are at distances along x that are all different.
         points.extend((2..n).map(|i| {
             let i = as_f64(i);
             [i / as_f64(n), (i * 0.618).fract(), (i * 0.414).fract()]
@@ -43,7 +45,8 @@ fn a_plane_that_chance_makes_is_weak() {
     assert!(weak(300));
 }
 
-/// A pair is mirrored where the one lies square to the plane from the other, and not where it is beside that.
+/// Checks that a pair is mirrored if the second point lies perpendicular to the plane from the first, and not if it is
+/// offset.
 #[test]
 fn images_lie_across_the_plane() {
     let mirrored = |beside: f64| {

@@ -1,4 +1,4 @@
-//! Rows solved in whole numbers, against elimination of the same rows in rational ones that shares nothing with it.
+//! Rows solved in whole numbers, compared with an independent elimination in rational numbers.
 
 use super::*;
 use proptest::prelude::*;
@@ -9,7 +9,7 @@ fn ratio(n: i64, d: i64) -> Q {
     Q::new(n.into(), d.into())
 }
 
-/// Coefficients of a row at all coordinates.
+/// Returns the coefficients of a row at all coordinates.
 fn dense(row: &PointEquation, normals: &[Rational3], points: usize) -> Vec<Q> {
     let mut out = vec![Q::zero(); 3 * points];
     for &(p, c) in &row.terms {
@@ -20,7 +20,7 @@ fn dense(row: &PointEquation, normals: &[Rational3], points: usize) -> Vec<Q> {
     out
 }
 
-/// The rank of a matrix, by plain elimination.
+/// Returns the rank of a matrix, by plain elimination.
 fn rank(mut rows: Vec<Vec<Q>>) -> usize {
     let mut rank = 0;
     for c in 0..rows.first().map_or(0, Vec::len) {
@@ -63,7 +63,7 @@ proptest! {
         let value = |p: usize, k: usize| values[3 * p + k].clone();
         let found = solve(&rows, &normals, POINTS, value, |p, k| stay[3 * p + k]);
         let dense: Vec<Vec<Q>> = rows.iter().map(|r| dense(r, &normals, POINTS)).collect();
-        // Coordinates that stay are known: the rest of a row, and what the row then asks of it.
+        // Fixed coordinates are known: the remainder of a row, and its constant.
         let of_free = |r: &Vec<Q>| -> Vec<Q> {
             (0..r.len()).filter(|&v| !stay[v]).map(|v| r[v].clone()).collect()
         };
@@ -84,7 +84,7 @@ proptest! {
     }
 }
 
-/// Numbers grow by the digits of a normal at every row where nothing cancels.
+/// Checks the limit on numbers that grow by the digits of a normal at every row, because nothing cancels.
 #[test]
 fn what_grows_too_long_is_given_up() {
     let mut state = 1u64;
