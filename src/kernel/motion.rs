@@ -1,4 +1,4 @@
-//! Poses of closed mechanisms, mechanisms in another of their poses, and mechanisms followed along a drive.
+//! Poses of closed mechanisms, mechanisms moved to another pose, and mechanisms followed along a drive.
 
 pub mod close;
 pub(crate) mod displacement_series;
@@ -14,7 +14,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 
-/// The mechanism with every joint where the pose has it; none where a number is too large.
+/// Returns the mechanism with every joint at its position in the pose, or `None` if a number is too large.
 ///
 /// # Complexity
 /// One pass over the joints.
@@ -27,7 +27,8 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
     };
     for (j, joint) in m.joints_with_ids() {
         let freedoms = joint.joint_type.freedoms();
-        // As poses have it: a slot is of the second link and its pin of the first; else a guide is of the first.
+        // As in poses, a slot belongs to the second link and its pin to the first. Otherwise a guide belongs to the
+        // first.
         let has = |f| freedoms.contains(&f);
         let slot = has(Freedom::Tx) && !has(Freedom::Ty);
         let carrier = joint.links[usize::from(!slot)];
@@ -45,13 +46,13 @@ pub fn moved(m: &Mechanism, pose: &Pose) -> Option<Mechanism> {
     Some(out)
 }
 
-/// A direction of a link in another pose, as it is in the pose of the file.
+/// Returns a direction of a link in another pose, converted to the pose of the file.
 #[must_use]
 pub(crate) fn turned_back(pose: &Pose, link: LinkId, d: Vector) -> Vector {
     pose.links[link.index()].inverse().direction(d)
 }
 
-/// The line of the first of some freedoms that a joint has.
+/// Returns the line of the first of some freedoms that a joint has.
 fn direction(pose: &Pose, joint: JointId, wanted: &[Freedom]) -> Option<Vector> {
     let mut columns = pose.columns.iter();
     let found = columns.find(|c| c.joint == joint && wanted.contains(&c.freedom))?;

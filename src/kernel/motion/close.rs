@@ -3,10 +3,10 @@
 use crate::motion::pose::Pose;
 use ozols_dense::{Matrix, least_squares};
 
-/// Newton steps before a pose is given up.
+/// Maximum number of Newton steps per pose.
 const STEPS: usize = 60;
 
-/// Why a pose could not be reached.
+/// Reason why a pose could not be reached.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PoseError {
@@ -15,14 +15,14 @@ pub enum PoseError {
         "the contours do not close: after {steps} steps a gap of {residual:.1e} of the mechanism's size is left"
     )]
     Open {
-        /// Steps taken.
+        /// Number of steps taken.
         steps: usize,
-        /// The gap.
+        /// The remaining gap.
         residual: f64,
     },
 }
 
-/// A pose nearer than this share of its step is the one it came from.
+/// Share of a step within which a pose counts as the one it came from.
 const BACK: f64 = 0.1;
 
 impl Pose {
@@ -45,21 +45,23 @@ impl Pose {
         })
     }
 
-    /// The closed coordinates nearest (nearly) to `q`, by damped least-norm Newton steps; `hold` keeps some coordinates.
+    /// Returns (nearly) the nearest closed coordinates to `q`, by damped least-norm Newton steps; `hold` keeps some
+    /// coordinates fixed.
     ///
     /// # Errors
-    /// [`PoseError::Open`] where the gaps do not go below [`Pose::closed`].
+    /// Returns [`PoseError::Open`] if the gaps do not fall below [`Pose::closed`].
     ///
     /// # Complexity
-    /// O((6k)²·f) a step.
+    /// O((6k)²·f) per step.
     pub fn close(&self, q: Vec<f64>, hold: &[usize]) -> Result<Vec<f64>, PoseError> {
         self.close_within(q, hold, f64::INFINITY)
     }
 
-    /// As [`Pose::close`], where only coordinates no farther than `most` from `q` are of use.
+    /// Works as [`Pose::close`], if only coordinates no farther than `most` from `q` are useful.
     ///
     /// # Errors
-    /// As [`Pose::close`], and once a step leads twice as far: what nearly closes on the way there need not close nearby.
+    /// Returns an error in the same cases as [`Pose::close`], and once a step leads twice as far. A pose that nearly
+    /// closes on that path need not close nearby.
     ///
     /// # Complexity
     /// As [`Pose::close`].
@@ -71,7 +73,7 @@ impl Pose {
     ) -> Result<Vec<f64>, PoseError> {
         let closed = self.closed();
         let start = q.clone();
-        // Errors of the coordinates must not be mended by running along the motion.
+        // Coordinate errors must not be corrected by moving along the motion.
         let floor = (1e3 * self.accuracy()).clamp(1e-11, 1e-2);
         let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
         let mut best = (f64::INFINITY, q.clone());
@@ -81,11 +83,12 @@ impl Pose {
             if residual < best.0 {
                 best = (residual, q.clone());
             }
-            // The last steps are for free: Newton's are quadratic, unless the pose is singular.
+            // The last steps are free: Newton's method is quadratic, unless the pose is singular.
             if residual < 1e-14 || !residual.is_finite() {
                 break;
             }
-            // Measured contours never close quite: further steps would creep along the motion, to where they close better.
+            // Measured contours never close exactly. Further steps would creep along the motion to where they close
+            // better.
             if self.accuracy() > 0.0 && residual < closed && residual > before / 2.0 {
                 break;
             }
@@ -126,9 +129,9 @@ impl Pose {
     }
 }
 
-/// The damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|² by orthogonal factors, λ in proportion to the gap: where J is
-/// singular at the solution this still converges, and where it is regular the damping vanishes faster than the error
-/// [Yamashita & Fukushima 2001].
+/// Returns the damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|², by orthogonal factors, with λ in proportion to
+/// the gap. If J is singular at the solution, this still converges. If J is regular, the damping vanishes faster than
+/// the error [Yamashita & Fukushima 2001].
 fn least_norm(jacobian: &Matrix, gaps: &[f64], damping: f64) -> Vec<f64> {
     let (rows, columns) = (jacobian.nrows(), jacobian.ncols());
     let stacked = Matrix::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {

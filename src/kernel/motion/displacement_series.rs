@@ -1,8 +1,9 @@
-//! Rigid displacements along a motion: their numbers are power series of one variable t over a prime field, cut off at an order.
+//! Rigid displacements along a motion. Their entries are power series of one variable t over a prime field, truncated
+//! at an order.
 //!
 //! # Sources
-//! Products of exponentials: Brockett, "Robotic manipulators and the product of exponentials formula" (1984). Series of them along a
-//! motion: Müller, "Higher-order analysis of kinematic singularities", J. Mechanisms Robotics 8 (2016).
+//! Products of exponentials: Brockett, "Robotic manipulators and the product of exponentials formula" (1984). Their
+//! series along a motion: Müller, "Higher-order analysis of kinematic singularities", J. Mechanisms Robotics 8 (2016).
 
 use crate::closure::twist::Twist;
 use crate::linalg::modp::{Field, Residue};
@@ -10,19 +11,19 @@ use crate::linalg::modp::{Field, Residue};
 /// The coefficients of t⁰, t¹, ... of a number.
 pub(crate) type Series = Vec<Residue>;
 
-/// Three rows of a turn, each with its component of the shift behind it.
+/// Three rows of a rotation, each followed by its component of the translation.
 type Term = [[Residue; 4]; 3];
 
 /// A displacement as a power series; its coefficient of t⁰ is the identity.
 #[derive(Debug, Clone)]
 pub(crate) struct DisplacementSeries {
     field: Field,
-    /// The coefficients of t⁰, t¹, ..., as many as the order says.
+    /// The coefficients of t⁰, t¹, ..., up to the order.
     terms: Vec<Term>,
 }
 
 impl DisplacementSeries {
-    /// Returns the displacement that moves nothing.
+    /// Returns the identity displacement.
     pub(crate) fn identity(field: Field, order: usize) -> Self {
         let mut terms = vec![Term::default(); order];
         if let Some(first) = terms.first_mut() {
@@ -31,8 +32,8 @@ impl DisplacementSeries {
         DisplacementSeries { field, terms }
     }
 
-    /// Returns exp(q(t)·s) for a twist s and a coordinate q with q(0) = 0: the sum of the powers of the twist's matrix, each times
-    /// that power of q over its factorial.
+    /// Returns exp(q(t)·s) for a twist s and a coordinate q with q(0) = 0. This is the sum of the powers of the twist's
+    /// matrix, each times that power of q over its factorial.
     ///
     /// # Complexity
     /// O(m³) field operations for the order m.
@@ -55,14 +56,14 @@ impl DisplacementSeries {
         out
     }
 
-    /// Returns this displacement followed, in the moved frame, by another: the product of both.
+    /// Returns the product of this displacement and another that follows it in the moved frame.
     pub(crate) fn then(&self, next: &Self) -> Self {
         let f = self.field;
         let mut terms = vec![Term::default(); self.terms.len()];
         for (i, a) in self.terms.iter().enumerate() {
             for (j, b) in next.terms.iter().enumerate().take(self.terms.len() - i) {
                 let mut of = product(f, a, b);
-                // The last row of a displacement is that of t⁰ alone.
+                // The last row of a displacement has only the coefficient of t⁰.
                 if j == 0 {
                     (0..3).for_each(|r| of[r][3] = f.add(of[r][3], a[r][3]));
                 }
@@ -72,10 +73,10 @@ impl DisplacementSeries {
         DisplacementSeries { field: f, terms }
     }
 
-    /// Returns the displacement that undoes this one.
+    /// Returns the inverse displacement.
     pub(crate) fn inverse(&self) -> Self {
         let f = self.field;
-        // The turn transposed, and the shift turned back by it.
+        // The transposed rotation, and the translation rotated back by it.
         let turned = |t: &Term| -> Term { [0, 1, 2].map(|i| [t[0][i], t[1][i], t[2][i], 0]) };
         let mut terms: Vec<Term> = self.terms.iter().map(turned).collect();
         for (k, term) in terms.iter_mut().enumerate() {
@@ -89,7 +90,8 @@ impl DisplacementSeries {
         DisplacementSeries { field: f, terms }
     }
 
-    /// Returns a twist (ω; v) carried along: (Rω; p × Rω + Rv) for the turn R and the shift p, one for each power of t.
+    /// Returns a twist (ω; v) moved by the displacement: (Rω; p × Rω + Rv) for the rotation R and the translation p,
+    /// one for each power of t.
     pub(crate) fn carried(&self, s: &Twist<Residue>) -> Vec<Twist<Residue>> {
         let f = self.field;
         let times = |t: &Term, v: &[Residue]| [0, 1, 2].map(|i| f.dot(&t[i][..3], v));
@@ -109,13 +111,14 @@ impl DisplacementSeries {
         self.terms.iter().enumerate().map(of).collect()
     }
 
-    /// Returns the twist whose matrix the coefficient of t^k is; it is one where those of t¹ to t^(k-1) vanish.
+    /// Returns the twist whose matrix is the coefficient of t^k. It is a twist if those of t¹ to t^(k-1) vanish.
     pub(crate) fn twist(&self, k: usize) -> Twist<Residue> {
         self.terms.get(k).map_or([0; 6], twist_of)
     }
 }
 
-/// Returns a vector of series times 1, t, t², ..., cut off at its order: the coefficients of t⁰ first, then those of t¹, and so on.
+/// Returns a vector of series times 1, t, t², ..., truncated at its order: the coefficients of t⁰ first, then those of
+/// t¹, and so on.
 pub(crate) fn multiples(terms: &[impl AsRef<[Residue]>]) -> Vec<Vec<Residue>> {
     let width = terms.first().map_or(0, |t| t.as_ref().len());
     let shifted = |by: usize| {
@@ -136,7 +139,7 @@ fn hat(f: Field, s: &Twist<Residue>) -> Term {
     ]
 }
 
-/// Returns the twist of a matrix that [`hat`] made.
+/// Returns the twist of a matrix made by [`hat`].
 fn twist_of(t: &Term) -> Twist<Residue> {
     [t[2][1], t[0][2], t[1][0], t[0][3], t[1][3], t[2][3]]
 }
@@ -155,7 +158,7 @@ fn accumulate(f: Field, sum: &mut Term, more: &Term, by: Residue) {
     }
 }
 
-/// Returns the product of two series of one order, cut off there.
+/// Returns the product of two series of one order, truncated there.
 fn series_product(f: Field, a: &[Residue], b: &[Residue]) -> Series {
     let of = |k: usize| {
         let pairs = a[..=k].iter().copied().zip(b[..=k].iter().rev().copied());
@@ -177,7 +180,7 @@ mod tests {
         numbers.map(|x| f.from_i64(x))
     }
 
-    /// A turn about the z axis by q = t: R = 1 + t ẑ + t² ẑ²/2 + ..., so that x turns to (1 - t²/2, t, 0).
+    /// Checks a turn about the z axis by q = t: R = 1 + t ẑ + t² ẑ²/2 + ..., so that x turns to (1 - t²/2, t, 0).
     #[test]
     fn a_turn_is_its_taylor_series() {
         let f = field();
@@ -203,7 +206,7 @@ mod tests {
         let both = one.then(&two);
         let none = both.then(&both.inverse());
         assert_eq!(none.terms, DisplacementSeries::identity(f, 4).terms);
-        // What is carried twice is carried by the product.
+        // Applying two displacements in turn is the same as applying their product.
         let s = of(f, [3, 1, 4, 1, 5, 9]);
         let second = two.carried(&s);
         let of_one: Vec<_> = second.iter().map(|s| one.carried(s)).collect();

@@ -1,41 +1,42 @@
-//! The whole way of a drive, from one end to the other or once round, step by step.
+//! The full range of a drive, from one end to the other or through one turn, step by step.
 
 use crate::geom::rigid::RigidMotion;
 use crate::motion::follow::{Follower, Stop, positions, slides};
 use crate::motion::pose::Pose;
 use std::f64::consts::{PI, TAU};
 
-/// The farthest that a slide is followed to either side, as a fraction of [`Pose::length`].
+/// The farthest distance that a slide is followed to either side, as a fraction of [`Pose::length`].
 pub const SLIDE: f64 = 1.0;
-/// A drive that comes as near as this to half a turn either way is taken to go round, in radians.
+/// Tolerance, in radians, within which a drive that reaches half a turn either way counts as fully rotating.
 const ROUND: f64 = 1e-9;
-/// Links that come back so near to where they were have closed the cycle.
+/// Distance of links from their start below which the cycle is closed.
 const BACK: f64 = 1e-6;
 
-/// A way that ends before it is as long as asked for is shown short of its ends by this share.
+/// Share by which a range that ends early is shown short of its ends.
 const SHORT: f64 = 1e-4;
 
-/// Poses along the way of a drive.
+/// Poses along the range of a drive.
 #[derive(Debug, Clone)]
 pub struct Way {
     /// Position of the drive in each pose: radians, or fractions of [`Pose::length`], from the pose of the file.
     pub at: Vec<f64>,
     /// The motion of each link since the pose of the file, pose by pose; see [`Pose::links`].
     pub links: Vec<Vec<RigidMotion>>,
-    /// Which of the poses is that of the file, or the nearest to it.
+    /// Index of the pose of the file, or of the nearest one.
     pub start: usize,
-    /// Whether the last pose is the first again, after one turn of the drive.
+    /// Whether the last pose equals the first, after one turn of the drive.
     pub closed: bool,
-    /// Why the way ends where it does, at its beginning and at its end; `None` where it was not followed farther.
+    /// Reasons why the range ends at its beginning and at its end; `None` if it was not followed farther.
     pub ends: [Option<Stop>; 2],
 }
 
-/// Follows a mechanism to the ends of the way of a drive, other drives held: once round where the drive goes round, else
-/// from end to end, a slide at most the size of the mechanism to either side. Where a range is given, only within it. Steps of the
-/// drive are equal, but smaller towards an end where it stops.
+/// Follows a mechanism to the ends of the range of a drive, with other drives held. A drive that rotates fully is
+/// followed through one turn, and others from end to end. A slide is followed by at most the size of the mechanism to
+/// either side. If a range is given, it is the limit. Steps of the drive are equal, but smaller towards an end that
+/// stops it.
 ///
 /// # Complexity
-/// As [`Follower::advance`], for some ten poses a radian three times over.
+/// As [`Follower::advance`], for about ten poses per radian, three times.
 #[must_use]
 pub fn way(
     pose: &Pose,
@@ -58,7 +59,7 @@ pub fn way(
         ends[n].is_some()
     };
     let stopped = [go(0, wanted[0]), go(1, wanted[1])];
-    // what goes round on one side only is followed on that side until it is round
+    // if the turn completes on one side only, it is followed on that side until it closes
     if range.is_none() && turns && stopped[0] != stopped[1] {
         let n = usize::from(stopped[0]);
         go(n, 2.0 * wanted[n]);
@@ -77,7 +78,7 @@ pub fn way(
             };
         }
     }
-    // the pose at which a way ends is hard to come to a second time
+    // the pose at the end of a range is hard to reach a second time
     let [from, to] = reached;
     for (n, end) in [0, 1].into_iter().zip([from, to]) {
         if ends[n].is_some() {
@@ -87,7 +88,7 @@ pub fn way(
     along(pose, drive, held, reached, steps, ends)
 }
 
-/// The poses of a range that has been seen to be within reach.
+/// Returns the poses of a range that is known to be reachable.
 fn along(
     pose: &Pose,
     drive: usize,
@@ -124,7 +125,8 @@ fn along(
     }
 }
 
-/// A part of a way, of equal parts of a turn: near an end that stops a drive, the others move farther than it.
+/// Returns a fraction of the range from equal fractions of a turn. Near an end that stops a drive, the other joints
+/// move farther than the drive.
 fn eased(part: f64, stopped: [bool; 2]) -> f64 {
     match stopped {
         [false, false] => part,
@@ -134,7 +136,7 @@ fn eased(part: f64, stopped: [bool; 2]) -> f64 {
     }
 }
 
-/// How far two places of a link are apart: radians, and fractions of [`Pose::length`].
+/// Returns the distance between two positions of a link: radians, and fractions of [`Pose::length`].
 fn apart(a: &RigidMotion, b: &RigidMotion) -> f64 {
     let shift = (0..3).map(|i| (a.translation[i] - b.translation[i]).abs());
     let turn = (0..9).map(|i| (a.rotation[i / 3][i % 3] - b.rotation[i / 3][i % 3]).abs());

@@ -1,15 +1,18 @@
-//! A closed mechanism followed along the coordinate of one joint, its drive, with the branch of the file's pose kept.
+//! A closed mechanism followed along the coordinate of one joint, its drive, on the branch of the file's pose.
 //!
-//! Predictor and corrector [Allgower & Georg, "Numerical Continuation Methods", 1990, ch. 2 and 6], with the drive's
-//! coordinate as parameter: a step along the motion of drive speed 1 that is least among all such motions, so that idle
-//! freedoms rest, then Newton's method with the drive held. A step is halved where Newton's method fails, where it
-//! corrects by more than [`CORRECTION`] of the step, or where the motion turns by more than [`TURN`]: another branch
-//! through a singular pose nearby lies a fixed angle away, and the correction shrinks with the square of the step, so
-//! what is met is the branch one was on. A pose where more motions are possible than before is passed in the direction
-//! one came from. Below [`SMALLEST`] the drive is at the end of its way, and the last pose says why.
+//! The method is predictor and corrector [Allgower & Georg, "Numerical Continuation Methods", 1990, ch. 2 and 6], with
+//! the drive's coordinate as parameter. A step follows the motion of drive speed 1 that is smallest among all such
+//! motions, so that idle freedoms rest. Newton's method with the drive held corrects it.
 //!
-//! Coordinates are counted from one pose, so that errors of closing do not add up; only balls that have turned far get a
-//! new one.
+//! A step is halved if Newton's method fails, if it corrects by more than [`CORRECTION`] of the step, or if the motion
+//! turns by more than [`TURN`]. Another branch through a nearby singular pose lies a fixed angle away, and the
+//! correction shrinks with the square of the step. So the follower stays on its branch.
+//!
+//! A pose with more possible motions than before is passed in the incoming direction. Below [`SMALLEST`] the drive is
+//! at the end of its range, and the last pose gives the reason.
+//!
+//! Coordinates are measured from one pose, so that closure errors do not accumulate. Only balls that have turned far
+//! get a new reference pose.
 
 use crate::motion::pose::{FLAT, Pose};
 use ozols_dense::{Matrix, svd};
@@ -19,20 +22,20 @@ use thiserror::Error;
 const LONGEST: f64 = 0.1;
 /// The longest step of any coordinate.
 const FARTHEST: f64 = 0.3;
-/// A step below this is none.
+/// Minimum step length.
 pub const SMALLEST: f64 = 1e-10;
 /// The largest correction, as a share of its step.
 pub const CORRECTION: f64 = 0.2;
 /// Cosine of the largest turn of the motion in a step, 20°.
 pub const TURN: f64 = 0.94;
-/// A drive with a smaller share in the motion of unit length stands still.
+/// Share of the drive in the motion of unit length below which the drive is at rest.
 const STILL: f64 = 1e-3;
-/// A kept singular value below this fraction of the largest is that of a pose next to a singular one.
+/// Fraction of the largest singular value below which a kept one indicates a pose close to a singular one.
 const NEARLY_FLAT: f64 = 1e-3;
-/// A ball turned farther than this about its second axis gets new axes.
+/// Turn of a ball about its second axis beyond which it gets new axes.
 const BALL: f64 = 0.7;
 
-/// Why a stroke ends.
+/// Reason why a stroke ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Why {
@@ -45,7 +48,7 @@ pub enum Why {
     /// Motions on several branches.
     #[error("singular pose: branches of the motion cross or end here, and none goes on smoothly")]
     Singular,
-    /// Motions of first order that no pose follows, though nothing shows in the singular values alone.
+    /// First-order motions that no pose follows, although the singular values show no irregularity.
     #[error(
         "the motion in this pose is instantaneous only: no pose next to it closes on this branch (a shaky pose, or a cusp)"
     )]
@@ -53,7 +56,7 @@ pub enum Why {
 }
 
 impl Why {
-    /// One word for data.
+    /// Returns one word for data.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -70,34 +73,34 @@ impl Why {
 pub struct Stop {
     /// Position of the drive in the last pose reached: radians, or fractions of [`Pose::length`].
     pub at: f64,
-    /// Why it went no further.
+    /// The reason.
     pub why: Why,
 }
 
-/// The motion of least size at drive speed 1.
+/// The smallest motion at drive speed 1.
 #[derive(Debug, Clone)]
 struct Tangent {
-    /// Speed of each column; empty where the drive cannot move.
+    /// Speed of each column; empty if the drive cannot move.
     speeds: Vec<f64>,
     /// Share of the drive in the motion of unit length.
     share: f64,
-    /// Motions with the other drives held.
+    /// Number of motions with the other drives held.
     motions: usize,
     /// The smallest kept singular value as a fraction of the largest.
     kept: f64,
 }
 
-/// A mechanism on its way along the drive's coordinate.
+/// A mechanism moving along the drive's coordinate.
 #[derive(Debug, Clone)]
 pub struct Follower {
-    /// The pose that coordinates are counted from.
+    /// The reference pose of the coordinates.
     anchor: Pose,
-    /// Coordinates since then.
+    /// Coordinates relative to it.
     q: Vec<f64>,
     drive: usize,
     held: Vec<usize>,
     tangent: Tangent,
-    /// The fewest motions met so far: what a regular pose has.
+    /// The smallest number of motions so far, which is that of a regular pose.
     fewest: usize,
 }
 
@@ -109,7 +112,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The motion at drive speed 1 nearest to `before` (least where there is none), with some columns held.
+/// Returns the motion at drive speed 1 nearest to `before` (or the smallest if there is none), with some columns held.
 fn tangent(
     anchor: &Pose,
     q: &[f64],
@@ -131,7 +134,7 @@ fn tangent(
     let Some(svd) = svd(&part) else {
         return none(0, 0.0);
     };
-    // Errors of the coordinates open poses a little, and hide singular values up to their size.
+    // Coordinate errors open poses slightly, and hide singular values up to their size.
     let rank = svd.rank(FLAT.max(10.0 * anchor.closed()));
     let last = rank.checked_sub(1);
     let kept = last.map_or(1.0, |i| svd.values[i] / svd.values[0]);
@@ -145,7 +148,7 @@ fn tangent(
     if size < 1e-12 {
         return none(motions, kept);
     }
-    // Where more can move than before, on in the direction one came from.
+    // If more motions are possible than before, the direction stays the incoming one.
     let mut weights = match before {
         Some(b) if motions > fewest && !b.speeds.is_empty() => (0..motions)
             .map(|m| {
@@ -172,7 +175,7 @@ fn tangent(
 }
 
 impl Follower {
-    /// A mechanism at a pose, driven through a column; other drives are held.
+    /// Creates a follower of a mechanism at a pose, driven through a column; other drives are held.
     #[must_use]
     pub fn new(pose: Pose, drive: usize, held: &[usize]) -> Follower {
         let q = vec![0.0; pose.columns.len()];
@@ -187,31 +190,31 @@ impl Follower {
         }
     }
 
-    /// Position of the drive: radians, or fractions of [`Pose::length`], from the pose of the file.
+    /// Returns the position of the drive: radians, or fractions of [`Pose::length`], from the pose of the file.
     #[must_use]
     pub fn at(&self) -> f64 {
         self.anchor.columns[self.drive].moved + self.q[self.drive]
     }
 
-    /// The pose.
+    /// Returns the pose.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.anchor.moved(&self.q)
     }
 
-    /// What the contours are open by: radians, and fractions of [`Pose::length`].
+    /// Returns the gap of the contours: radians, and fractions of [`Pose::length`].
     #[must_use]
     pub fn gap(&self) -> f64 {
         norm(&self.anchor.gaps(&self.q))
     }
 
-    /// Share of the drive's speed in the motion of unit length: 1 where nothing else moves, 0 at a dead point.
+    /// Returns the share of the drive's speed in the motion of unit length: 1 if nothing else moves, 0 at a dead point.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.tangent.share
     }
 
-    /// Motions with the other drives held: 1, idle ones, and those that no drive decides.
+    /// Returns the number of motions with the other drives held: 1, idle ones, and those that no drive determines.
     #[must_use]
     pub fn motions(&self) -> usize {
         self.tangent.motions
@@ -222,7 +225,7 @@ impl Follower {
         tangent(&self.anchor, q, drive, held, before, self.fewest)
     }
 
-    /// One step to a position of the drive, or nothing where it does not stay on the branch.
+    /// Returns the result of one step to a position of the drive, or `None` if it leaves the branch.
     fn step(&self, to: f64) -> Option<Follower> {
         let ahead = to - self.at();
         let mut guess: Vec<f64> = self
@@ -231,7 +234,7 @@ impl Follower {
             .zip(&self.tangent.speeds)
             .map(|(q, t)| q + ahead * t)
             .collect();
-        // Exactly there, whatever rounding did on the way.
+        // The position is exact, whatever the rounding along the path.
         guess[self.drive] = to - self.anchor.columns[self.drive].moved;
         for &h in &self.held {
             guess[h] = self.q[h];
@@ -262,14 +265,14 @@ impl Follower {
         })
     }
 
-    /// Counts coordinates from here where a ball has turned so far that its axes are about to meet.
+    /// Resets the reference pose if a ball has turned so far that its axes nearly align.
     fn drop_anchor(&mut self) {
         let columns = &self.anchor.columns;
         let far = columns.windows(3).enumerate().any(|(i, w)| {
             w.iter().all(|c| c.joint == w[0].joint && c.freedom.turns())
                 && self.q[i + 1].abs() > BALL
         });
-        // In a singular pose the direction one came from would be lost.
+        // In a singular pose the incoming direction would be lost.
         if far && self.tangent.motions == self.fewest {
             self.anchor = self.anchor.moved(&self.q);
             self.q = vec![0.0; self.q.len()];
@@ -277,13 +280,13 @@ impl Follower {
         }
     }
 
-    /// Goes on to a position of the drive and hands over every pose on the way, the last one included.
+    /// Moves on to a position of the drive and visits every pose along the path, including the last one.
     ///
     /// # Errors
-    /// Where it goes no further; the pose is then the last one reached.
+    /// Returns an error if the drive stops earlier. The pose is then the last one reached.
     ///
     /// # Complexity
-    /// A closing and singular values, O((6k + f)³), a step; steps of at most `LONGEST`.
+    /// One closure and singular values, O((6k + f)³), per step; steps of at most `LONGEST`.
     pub fn advance(&mut self, to: f64, mut visit: impl FnMut(&Follower)) -> Result<(), Stop> {
         let mut longest = LONGEST;
         loop {
@@ -323,7 +326,7 @@ impl Follower {
         }
     }
 
-    /// Why there is no going on.
+    /// Returns the reason why the drive stops.
     fn stop(&self) -> Stop {
         let t = &self.tangent;
         let why = if t.motions == 0 {
@@ -340,7 +343,7 @@ impl Follower {
         Stop { at: self.at(), why }
     }
 
-    /// Whether other poses close by have fewer motions: the file's pose may be singular itself.
+    /// Returns true if nearby poses have fewer motions; the file's pose may be singular itself.
     fn branches(&self) -> bool {
         let ahead = 1e-3;
         [ahead, -ahead].iter().any(|h| {
@@ -360,17 +363,17 @@ impl Follower {
 /// A stroke in equal steps.
 #[derive(Debug, Clone)]
 pub struct Followed {
-    /// The poses at the positions asked for, in order, as far as they were reached.
+    /// The poses at the requested positions, in order, as far as they were reached.
     pub reached: Vec<Follower>,
-    /// Where and why it ended before the last.
+    /// The position and the reason if it ended before the last.
     pub stop: Option<Stop>,
 }
 
-/// Follows a mechanism from its pose to the position `from` of a column (no poses given there) and on to `to` in `steps`
-/// equal steps; positions in radians, or fractions of [`Pose::length`].
+/// Follows a mechanism from its pose to the position `from` of a column, without recording poses, and on to `to` in
+/// `steps` equal steps. Positions are in radians, or fractions of [`Pose::length`].
 ///
 /// # Complexity
-/// As [`Follower::advance`], for some ten poses a radian.
+/// As [`Follower::advance`], for about ten poses per radian.
 #[must_use]
 pub fn follow(
     pose: &Pose,
@@ -396,13 +399,13 @@ pub fn follow(
     }
 }
 
-/// Whether a column of a pose slides.
+/// Returns true if a column of a pose slides.
 #[must_use]
 pub fn slides(pose: &Pose, column: usize) -> bool {
     pose.columns[column].freedom.slides()
 }
 
-/// The positions of a stroke in equal steps, both ends included.
+/// Returns the positions of a stroke in equal steps, including both ends.
 ///
 /// # Examples
 /// ```

@@ -1,4 +1,5 @@
-//! Jaws that close on each other: where on a way their faces meet, past which they would go through each other.
+//! Jaws that close on each other: the position in a range at which their faces meet. Beyond it they would pass through
+//! each other.
 
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, add, dot, length, scale, sub};
@@ -7,10 +8,10 @@ use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
 use std::f64::consts::TAU;
 
-/// Faces that pass each other at more than this share of the distance they began with have not met.
+/// Share of the initial distance above which faces that pass each other have not met.
 const NEAR: f64 = 0.2;
 
-/// The joints at which output links are to hold an object that is not there in a state, with those links.
+/// Returns the joints at which output links are to hold an object that is absent in a state, with those links.
 pub fn faces(m: &Mechanism, state: StateId) -> impl Iterator<Item = (JointId, LinkId)> {
     let role = |l: LinkId| m.links[l].role;
     m.joint_ids().filter_map(move |j| {
@@ -26,7 +27,8 @@ pub fn faces(m: &Mechanism, state: StateId) -> impl Iterator<Item = (JointId, Li
     })
 }
 
-/// Where the drive of a way has brought jaws together, before the pose of the file and after it; nothing where it does not.
+/// Returns the positions at which the drive has closed the jaws, before the pose of the file and after it. Each is
+/// `None` if the jaws do not close.
 #[must_use]
 pub fn meet(m: &Mechanism, state: StateId, pose: &Pose, way: &Way) -> [Option<f64>; 2] {
     let real = |v: &[Expr; 3]| v.each_ref().map(Expr::to_f64);
@@ -53,12 +55,12 @@ pub fn meet(m: &Mechanism, state: StateId, pose: &Pose, way: &Way) -> [Option<f6
     met
 }
 
-/// The poses from that of the file on, each with the position of the drive.
+/// Returns the poses from that of the file onwards, each with the position of the drive.
 fn on(way: &Way) -> Vec<(usize, f64)> {
     (way.start..way.at.len()).map(|k| (k, way.at[k])).collect()
 }
 
-/// The poses from that of the file back; round from the end where the drive goes round.
+/// Returns the poses from that of the file backwards, wrapping around from the end if the drive rotates fully.
 fn back(way: &Way) -> Vec<(usize, f64)> {
     let own = (0..=way.start).rev().map(|k| (k, way.at[k]));
     let round = (way.start + 1..way.at.len()).rev();
@@ -66,7 +68,7 @@ fn back(way: &Way) -> Vec<(usize, f64)> {
     own.chain(round.filter(|_| way.closed)).collect()
 }
 
-/// The position of the drive at which a gap has gone to nothing and would turn round.
+/// Returns the position of the drive at which a gap vanishes and would change its direction.
 fn crossing(steps: &[(usize, f64)], gap: impl Fn(usize) -> Vector) -> Option<f64> {
     let first = gap(steps.first()?.0);
     let open = length(first);

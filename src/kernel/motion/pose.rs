@@ -1,11 +1,10 @@
 //! Poses of a closed mechanism: every contour as a product of exponentials, every coupling as a linear equation.
 //!
-//! Each freedom is one unit twist at a reference pose; a contour is closed at coordinates q when the product of
-//! exp(±q_i ξ_i) along it is the identity [Brockett 1984; Lynch & Park, "Modern Robotics", 2017, ch. 4 and 7]. Within a
-//! joint the translations come first and then the rotations in the order of the list, so that a guide or the first pin of
-//! a universal joint belongs to the first link of the joint; but a slot (a slide along x and none along y) belongs to its
-//! second, the pin or ball in it to the first. Lengths are divided by the size of the
-//! mechanism and taken from its middle, so that coordinates are radians and fractions of that size.
+//! Each freedom is one unit twist at a reference pose. A contour is closed at coordinates q if the product of exp(±q_i ξ_i) along it is
+//! the identity [Brockett 1984; Lynch & Park, "Modern Robotics", 2017, ch. 4 and 7]. Within a joint the translations come first, then the
+//! rotations in the order of the list. So a guide or the first pin of a universal joint belongs to the first link of the joint. A slot (a
+//! slide along x and none along y) belongs to its second link, and the pin or ball in it to the first. Lengths are divided by the size of
+//! the mechanism and measured from its middle, so coordinates are radians and fractions of that size.
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::spanning_tree;
@@ -22,12 +21,12 @@ use ozols_dense::Matrix;
 
 /// Largest residual of a closed pose: radians, and fractions of the mechanism's size.
 const CLOSED: f64 = 1e-12;
-/// Singular values of J below this fraction of the largest count as zero at a pose that Newton's method has closed.
+/// Fraction of the largest singular value of J below which values are zero at a pose closed by Newton's method.
 pub const FLAT: f64 = 1e-6;
 
-/// Turn and shift as six numbers that vanish together with a motion: (sin θ · axis; translation).
+/// Returns rotation and translation as six numbers that vanish together with a motion: (sin θ · axis; translation).
 fn defect(motion: &RigidMotion) -> [f64; 6] {
-    // Beyond a quarter turn the sine falls again; keep it growing so that half a turn is no solution.
+    // Beyond a quarter turn the sine decreases again. It is extended, so that half a turn is not a solution.
     let cosine = motion.cosine();
     let grow = if cosine < 0.0 {
         1.0 - 2.0 * cosine
@@ -47,11 +46,11 @@ pub struct PoseColumn {
     pub freedom: Freedom,
     /// Its unit twist, lengths in [`Pose::length`], about the middle of the mechanism.
     pub twist: Twist<f64>,
-    /// How far it has moved since the pose of the file: radians, or lengths in [`Pose::length`].
+    /// Its displacement since the pose of the file: radians, or lengths in [`Pose::length`].
     pub moved: f64,
 }
 
-/// Freedoms in the order they are passed in, each with its direction.
+/// Freedoms in the order of passage, each with its direction.
 type Walk = Vec<(usize, f64)>;
 
 /// A pose of a mechanism in one state.
@@ -59,26 +58,26 @@ type Walk = Vec<(usize, f64)>;
 pub struct Pose {
     /// The freedoms, joint by joint; within a joint, translations first.
     pub columns: Vec<PoseColumn>,
-    /// The size of the mechanism, in the file's unit: half the diagonal of the box round its joints.
+    /// The size of the mechanism, in the file's unit: half the diagonal of the bounding box of its joints.
     pub length: f64,
-    /// The middle that coordinates are taken from, in the file's unit.
+    /// The origin of the coordinates, in the file's unit.
     pub middle: [f64; 3],
     /// Motion of each link since the file's pose, in [`Pose::length`] about the middle.
     pub links: Vec<RigidMotion>,
-    /// Relative error of the coordinates: contours need not close better than that.
+    /// Relative error of the coordinates, which limits how well contours have to close.
     accuracy: f64,
     /// Contours as (column, direction).
     contours: Vec<Walk>,
     /// Couplings as sums of two coordinates with factors, of unit length, that must stay zero.
     couplings: Vec<[(usize, f64); 2]>,
-    /// Links in the order they are reached from the frame: link, the joint that leads to it, its columns in order.
+    /// Links in the order from the frame: the link, the one before it, and the columns of the joint between them.
     tree: Vec<(LinkId, LinkId, Walk)>,
     /// First link of every column's joint, and the columns of that joint before it.
     base: Vec<(LinkId, usize)>,
 }
 
 impl Pose {
-    /// Where motions of links, in the lengths of this pose, bring a point of one of them.
+    /// Returns the position to which motions of links, in the lengths of this pose, move a point of one of them.
     #[must_use]
     pub fn carried(&self, links: &[RigidMotion], link: LinkId, p: [f64; 3]) -> [f64; 3] {
         let parts = sub(p, self.middle).map(|x| x / self.length);
@@ -86,10 +85,10 @@ impl Pose {
         [0, 1, 2].map(|i| self.middle[i] + there[i] * self.length)
     }
 
-    /// The pose of the file.
+    /// Creates the pose of the file.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn of_file(mechanism: &Mechanism, state: StateId) -> Result<Pose, ExactError> {
         let joints: Vec<JointId> = mechanism.joints_in(state).collect();
         let space = MotionSpace::new(&Reals, &mechanism.mode)?;
@@ -128,15 +127,15 @@ impl Pose {
         })
     }
 
-    /// The same pose of measured geometry, with a relative error of its coordinates.
+    /// Returns the pose for measured geometry, with a relative error of its coordinates.
     #[must_use]
     pub(crate) fn with_accuracy(mut self, accuracy: f64) -> Pose {
         self.accuracy = accuracy;
         self
     }
 
-    /// Returns the file's pose with the frame of one joint in another place. Where the joint then has another number of motions in the
-    /// mechanism's plane, each keeps the freedom that it is named by.
+    /// Returns the file's pose with the frame of one joint moved. If the joint then has a different number of motions in the mechanism's
+    /// plane, each keeps the freedom that it is named by.
     #[must_use]
     pub(crate) fn reframed(
         &self,
@@ -160,7 +159,7 @@ impl Pose {
         out
     }
 
-    /// Returns the file's pose with one column tied to another: it moves by `ratio` where the other moves by 1, each in its own unit.
+    /// Returns the file's pose with one column tied to another: it moves by `ratio` if the other moves by 1, each in its own unit.
     pub fn tied(mut self, other: usize, column: usize, ratio: f64) -> Pose {
         let size = ratio.hypot(1.0);
         self.couplings
@@ -168,31 +167,31 @@ impl Pose {
         self
     }
 
-    /// Relative error of the coordinates, 0 where they are exact.
+    /// Returns the relative error of the coordinates, 0 if they are exact.
     #[must_use]
     pub fn accuracy(&self) -> f64 {
         self.accuracy
     }
 
-    /// The largest gap of a pose that counts as closed: radians, and fractions of [`Pose::length`].
+    /// Returns the largest gap of a pose that counts as closed: radians, and fractions of [`Pose::length`].
     #[must_use]
     pub fn closed(&self) -> f64 {
         CLOSED.max(10.0 * self.accuracy)
     }
 
-    /// Rows of the closure equations, 6 per contour and one per coupling.
+    /// Returns the number of rows of the closure equations, 6 per contour and one per coupling.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.constraints(6)
     }
 
-    /// Rows of the closure matrix with so many per contour, 6 or 3, and one per coupling.
+    /// Returns the number of rows of the closure matrix with `dim` per contour, 6 or 3, and one per coupling.
     #[must_use]
     pub fn constraints(&self, dim: usize) -> usize {
         dim * self.contours.len() + self.couplings.len()
     }
 
-    /// Returns how many freedoms are those of joints in a contour or a coupling.
+    /// Returns the number of freedoms of joints in a contour or a coupling.
     #[must_use]
     pub(crate) fn looped_columns(&self) -> usize {
         let of_contours = self.contours.iter().flatten().map(|&(c, _)| c);
@@ -200,8 +199,7 @@ impl Pose {
         of_contours.chain(of_couplings).unique().count()
     }
 
-    /// Gaps of the contours at coordinates `q` from this pose, six numbers each, then those of the couplings since the
-    /// pose of the file.
+    /// Returns the gaps of the contours at coordinates `q`, six numbers each, then those of the couplings since the pose of the file.
     #[must_use]
     pub fn gaps(&self, q: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
@@ -221,7 +219,7 @@ impl Pose {
         out
     }
 
-    /// J at coordinates `q` from this pose, (6k + c) × f.
+    /// Returns J at coordinates `q` from this pose, (6k + c) × f.
     #[must_use]
     pub fn jacobian(&self, q: &[f64]) -> Matrix {
         let mut matrix = Matrix::zeros(self.rows(), self.columns.len());
@@ -243,8 +241,8 @@ impl Pose {
         matrix
     }
 
-    /// How J changes along speeds `v`, times these: the accelerations that are left when all joints keep their speeds. Exact, by
-    /// the Lie brackets of the twists that are passed one after another [Müller 2016]; couplings are linear and have none.
+    /// Returns the change of J along speeds `v`, times `v`: the remaining accelerations if all joints keep their speeds. It is exact, by
+    /// the Lie brackets of successive twists [Müller 2016]. Couplings are linear and have none.
     #[must_use]
     pub(crate) fn bend(&self, v: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.rows()];
@@ -264,7 +262,7 @@ impl Pose {
         out
     }
 
-    /// Returns J at this pose, with six rows more for each path of joints, the twist at its end, and one more for each of some columns,
+    /// Returns J at this pose with six more rows for each path of joints, the twist at its end. One more row for each of some columns is
     /// its speed.
     #[must_use]
     pub fn jacobian_with(&self, paths: &[Vec<(JointId, bool)>], speeds: &[usize]) -> Matrix {
@@ -285,7 +283,7 @@ impl Pose {
         })
     }
 
-    /// The pose at coordinates `q` from this one, its twists taken there.
+    /// Returns the pose at coordinates `q` from this one, with its twists updated.
     #[must_use]
     pub fn moved(&self, q: &[f64]) -> Pose {
         let mut since = vec![RigidMotion::IDENTITY; self.links.len()];
@@ -313,7 +311,7 @@ impl Pose {
     }
 }
 
-/// The columns of a pose while they are laid out, joint by joint.
+/// The columns of a pose during construction, joint by joint.
 struct JointColumns {
     columns: Vec<PoseColumn>,
     /// First link of every column's joint, and the columns of that joint before it.
@@ -323,7 +321,7 @@ struct JointColumns {
 }
 
 impl JointColumns {
-    /// Adds the freedoms of a joint, in lengths and about the middle of all.
+    /// Adds the freedoms of a joint, in lengths of the scale and about the middle of all.
     fn add(
         &mut self,
         mechanism: &Mechanism,
@@ -353,7 +351,7 @@ impl JointColumns {
         Ok(())
     }
 
-    /// The freedoms of a joint as they are passed in a direction.
+    /// Returns the freedoms of a joint as they are passed in a direction.
     fn walk(&self, j: JointId, forward: bool) -> Walk {
         let own = self.of_joint[j].iter();
         if forward {
@@ -364,7 +362,7 @@ impl JointColumns {
     }
 }
 
-/// Returns the motions of a joint as the columns of a pose have them: unit twists, in series.
+/// Returns the motions of a joint as the columns of a pose use them: unit twists, in series.
 fn motions(
     frame: &FrameValues<f64>,
     space: &MotionSpace<f64>,
@@ -376,7 +374,7 @@ fn motions(
         .collect()
 }
 
-/// A frame with axes of unit length, about a middle and in lengths of a size.
+/// Returns a frame with axes of unit length, relative to a middle and in lengths of a size.
 fn in_lengths(frame: &FrameValues<f64>, middle: [f64; 3], size: f64) -> FrameValues<f64> {
     FrameValues {
         axes: frame.axes.map(vector::unit),
@@ -385,7 +383,7 @@ fn in_lengths(frame: &FrameValues<f64>, middle: [f64; 3], size: f64) -> FrameVal
     }
 }
 
-/// Returns a coupling in the coordinates of a pose, where slides are counted in lengths of the scale.
+/// Returns a coupling in the coordinates of a pose, with slides in lengths of the scale.
 fn coupled(
     coupling: &Coupling,
     columns: &[PoseColumn],
@@ -407,8 +405,8 @@ fn coupled(
     Some([(at(a)?, factors[0] / size), (at(b)?, factors[1] / size)])
 }
 
-/// The three turns of a ball, squared up again, so that no two of its axes ever come to lie along each other; each stays
-/// nearest its own axis, which a drive may hold.
+/// Makes the three rotation axes of a ball perpendicular again, so that no two of them ever align. Each stays nearest its own axis, which
+/// a drive may hold.
 fn square_balls(columns: &mut [PoseColumn]) {
     let mut i = 0;
     while i + 2 < columns.len() {
@@ -439,7 +437,7 @@ fn square_balls(columns: &mut [PoseColumn]) {
     }
 }
 
-/// Where two lines with unit directions meet (their twists about the origin given): the middle of the common normal.
+/// Returns the meeting point of two lines with unit directions, given by their twists about the origin: the middle of the common normal.
 fn meeting_point(w0: [f64; 3], v0: [f64; 3], w1: [f64; 3], v1: [f64; 3]) -> [f64; 3] {
     let (p0, p1) = (cross(w0, v0), cross(w1, v1));
     let d = sub(p1, p0);

@@ -1,4 +1,4 @@
-//! The working motion where no joint is a drive: along the null vector of J that moves the outputs most.
+//! The working motion if no joint is a drive: along the null vector of J that moves the outputs most.
 
 use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
@@ -6,17 +6,17 @@ use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
 use ozols_dense::{Matrix, svd};
 
-/// How far it is followed to either side, by the coordinate that moves most from step to step: radians, or fractions of
-/// [`Pose::length`].
+/// Distance to which it is followed to either side, by the coordinate that moves most from step to step: radians, or
+/// fractions of [`Pose::length`].
 pub(crate) const FAR: f64 = 0.9;
-/// A closed pose farther from where first order leads than this share of the step is another motion.
+/// Share of a step beyond which a closed pose is too far from the first-order prediction and belongs to another motion.
 const ASTRAY: f64 = 0.5;
 
-/// Follows the working motion from a pose to either side in so many steps of equal length, as far as poses close; none where
-/// the outputs move instantaneously at most.
+/// Follows the working motion from a pose to either side in `steps` steps of equal length, as far as poses close.
+/// Returns `None` if the motion of the outputs is only instantaneous.
 ///
 /// # Complexity
-/// Two decompositions of J and a closing a step.
+/// Two decompositions of J and one closure per step.
 #[must_use]
 pub fn working_way(m: &Mechanism, state: StateId, pose: &Pose, steps: usize) -> Option<Way> {
     let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
@@ -55,7 +55,7 @@ pub fn working_way(m: &Mechanism, state: StateId, pose: &Pose, steps: usize) -> 
     })
 }
 
-/// The next pose a step on, and the way it went.
+/// Returns the next pose, one step on, and the direction of the step.
 fn next(
     at: &Pose,
     paths: &[Vec<(JointId, bool)>],
@@ -69,8 +69,8 @@ fn next(
     (largest(&off) <= ASTRAY * step).then(|| (at.moved(&q), q))
 }
 
-/// The motion, its largest coordinate 1, that moves the outputs most for its size; the one nearest to where it came from, where it
-/// is on its way. No idle freedom takes part.
+/// Returns the motion, scaled to a largest coordinate of 1, that moves the outputs most for its size. During following
+/// it is the one nearest to the incoming direction. Idle freedoms take no part.
 fn direction(
     pose: &Pose,
     paths: &[Vec<(JointId, bool)>],
