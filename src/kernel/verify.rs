@@ -1,10 +1,10 @@
-//! Checks a certificate of rank by slow, plain means that share nothing with how it was found.
+//! Checks a certificate of rank by slow, simple means that share nothing with how it was found.
 //!
 //! A certificate that J has rank r over a real number field K shows three things:
-//! - K is a field: its first generator is 2 cos(2π/N), whose minimal polynomial is recomputed here, and each later one
-//!   is the root of a number that is no square, which a prime shows;
-//! - the rank is at least r: a ring homomorphism into a prime field under which a minor of size r does not vanish;
-//! - the rank is at most r: f - r vectors with J v = 0 exactly, each 1 in a column where all others are 0.
+//! - K is a field: its first generator is 2 cos(2π/N), whose minimal polynomial is recomputed here. Each later one is
+//!   the root of a number that is not a square, which a prime shows.
+//! - The rank is at least r: under a ring homomorphism into a prime field, a minor of size r does not vanish.
+//! - The rank is at most r: there are f - r vectors with J v = 0 exactly, each 1 in a column in which all others are 0.
 
 pub mod certificate;
 mod field;
@@ -26,7 +26,7 @@ use modular::Homomorphism;
 /// Confirms that a matrix has the rank its certificate claims.
 ///
 /// # Errors
-/// The first [`Flaw`] found.
+/// Returns the first [`Flaw`] found.
 ///
 /// # Complexity
 /// O(r³) operations modulo the prime and O(entries · (f - r)) products in the ring.
@@ -47,7 +47,7 @@ pub fn check(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<usize
     Ok(rank)
 }
 
-/// Every index below a bound, and none twice.
+/// Returns true if every index is below a bound and none is repeated.
 fn distinct(indices: &[usize], bound: usize) -> bool {
     let mut seen = vec![false; bound];
     indices
@@ -91,7 +91,7 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
             given: kernel.len(),
         });
     }
-    // Pivot columns and free columns share out the columns between them.
+    // Pivot columns and free columns together are all columns.
     let mut all: Vec<usize> = kernel.iter().map(|v| v.free).collect();
     all.extend(&certificate.minor.columns);
     if !distinct(&all, matrix.columns()) {
@@ -127,8 +127,8 @@ fn at_most(matrix: &MatrixOverRing, certificate: &Certificate) -> Result<(), Fla
     Ok(())
 }
 
-/// The first row that does not give 0 with a vector: of integers, since a multiple of either changes nothing, and no fraction has to be
-/// reduced on the way.
+/// Returns the first row that does not give 0 with a vector. It uses integers, because a multiple of either changes
+/// nothing, and no fraction has to be reduced.
 fn not_annihilated(
     matrix: &MatrixOverRing,
     integral: &[Vec<Vec<BigInt>>],

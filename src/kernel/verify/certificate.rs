@@ -1,4 +1,4 @@
-//! Certificates as data, to be written to JSON and read back. Numbers are written as strings.
+//! Certificates as data for JSON files. Numbers are written as strings.
 
 use crate::linalg::number_ring::Element;
 use num_rational::BigRational;
@@ -6,7 +6,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
-/// The word that begins a file of certificates.
+/// The format name at the start of a file of certificates.
 pub const FORMAT: &str = "ozols-certificate-1";
 
 /// A file of certificates of one mechanism.
@@ -17,9 +17,9 @@ pub struct CertificateFile {
     pub format: String,
     /// Name of the mechanism.
     pub mechanism: String,
-    /// One for each state that has one.
+    /// The certificates, one for each state that has one.
     pub certificates: Vec<Certificate>,
-    /// The states without.
+    /// The states without a certificate.
     pub without: Vec<Without>,
 }
 
@@ -29,30 +29,30 @@ pub struct CertificateFile {
 pub struct Without {
     /// Name of the state.
     pub state: String,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
-/// Why a text is no file of certificates.
+/// Reason why a text is not a file of certificates.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// Not of the right form.
+    /// The text has the wrong form.
     #[error("not a file of certificates: {0}")]
     Json(#[from] serde_json::Error),
-    /// A file of another kind.
+    /// The file has another format.
     #[error("not a file of certificates: its format is `{format}`, not `ozols-certificate-1`")]
     Format {
-        /// The format it states.
+        /// The stated format.
         format: String,
     },
 }
 
 impl CertificateFile {
-    /// Reads a file of certificates; what it claims is for [`super::check`] to confirm. O(length).
+    /// Reads a file of certificates. Its claims have to be confirmed by [`super::check`]. O(length).
     ///
     /// # Errors
-    /// Where the text is no such file.
+    /// Returns an error if the text is not such a file.
     pub fn read(json: &[u8]) -> Result<CertificateFile, ReadError> {
         let file: CertificateFile = serde_json::from_slice(json)?;
         if file.format == FORMAT {
@@ -65,7 +65,7 @@ impl CertificateFile {
     }
 }
 
-/// A proof that a matrix has a rank; see [`super`] for what it says.
+/// A proof that a matrix has a rank; see [`super`] for its meaning.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
@@ -79,9 +79,9 @@ pub struct Certificate {
     pub rank: usize,
     /// The number field.
     pub field: FieldClaim,
-    /// The rank is at least this minor's size.
+    /// A minor whose size is a lower bound of the rank.
     pub minor: Minor,
-    /// The rank is at most the columns less these.
+    /// Kernel vectors. The number of columns less their number is an upper bound of the rank.
     pub kernel: Vec<KernelVector>,
 }
 
@@ -89,15 +89,15 @@ pub struct Certificate {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldClaim {
-    /// N where the first generator is 2 cos(2π/N).
+    /// N if the first generator is 2 cos(2π/N).
     pub cosine_order: Option<u64>,
-    /// The monic relation of each generator over those before it, lowest coefficient first, the leading 1 left out.
+    /// The monic relation of each generator over those before it, lowest coefficient first, without the leading 1.
     pub relations: Vec<Vec<Element>>,
-    /// For each generator but a cosine, what shows that its relation has no root yet.
+    /// For each generator except a cosine, evidence that its relation has no root yet.
     pub witnesses: Vec<Witness>,
 }
 
-/// A prime modulo which a radicand is no square.
+/// A prime modulo which a radicand is not a square.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Witness {
@@ -129,7 +129,7 @@ pub struct Minor {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KernelVector {
-    /// The column where it is 1 and all others are 0.
+    /// The column in which it is 1 and all others are 0.
     pub free: usize,
     /// Its nonzero entries by column.
     pub entries: Vec<(usize, Element)>,
@@ -154,7 +154,7 @@ impl<'de> Deserialize<'de> for Element {
     }
 }
 
-/// A 64-bit number as a string: JSON numbers are doubles to many readers.
+/// Writes a 64-bit number as a string, because many readers treat JSON numbers as doubles.
 mod word {
     use serde::de::Error as _;
     use serde::{Deserialize, Deserializer, Serializer};

@@ -1,4 +1,4 @@
-//! Confirms that the ring of a matrix is a field, so that a number that is not zero in the ring is not zero in fact.
+//! Confirms that the ring of a matrix is a field, so that a nonzero number in the ring is actually nonzero.
 
 use super::certificate::FieldClaim;
 use super::flaw::Flaw;
@@ -9,10 +9,10 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-/// The finest angle whose polynomial is recomputed here.
+/// Maximum order of an angle whose polynomial is recomputed here.
 const MAX_ORDER: u64 = 4096;
 
-/// Confirms that the field is the one of the matrix, and a field.
+/// Confirms that the field is that of the matrix, and that it is a field.
 pub(super) fn check(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result<(), Flaw> {
     let ring = matrix.ring();
     let same = claim.cosine_order == matrix.cosine_order()
@@ -43,8 +43,9 @@ pub(super) fn check(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result<(), F
     Ok(())
 }
 
-/// Confirms that the number under a root is no square in the field so far: it is none modulo a prime, at simple roots
-/// of the relations so far (there the ring is integrally closed, so that a square of the field is one modulo the prime).
+/// Confirms that the number under a root is not a square in the field so far. It is not a square modulo a prime, at
+/// simple roots of the relations so far. There the ring is integrally closed, so that a square of the field is a square
+/// modulo the prime.
 fn root_is_new(
     ring: &NumberRing,
     generator: usize,
@@ -72,8 +73,8 @@ fn root_is_new(
     Ok(())
 }
 
-/// Whether a relation is the minimal polynomial ψ of 2 cos(2π/N): with x = y + 1/y it has to become the cyclotomic
-/// polynomial, y^h ψ(y + 1/y) = Φ_N(y), which is irreducible (Gauss).
+/// Returns true if a relation is the minimal polynomial ψ of 2 cos(2π/N). With x = y + 1/y it has to become the
+/// cyclotomic polynomial, y^h ψ(y + 1/y) = Φ_N(y), which is irreducible (Gauss).
 fn is_cosine_relation(order: u64, relation: &[Element]) -> bool {
     if !(3..=MAX_ORDER).contains(&order) {
         return false;
@@ -88,7 +89,7 @@ fn is_cosine_relation(order: u64, relation: &[Element]) -> bool {
         return false;
     };
     coefficients.push(BigInt::one());
-    // Horner in (y² + 1), each coefficient below the lead with one more y.
+    // Horner's scheme in (y² + 1), with one more factor y for each coefficient below the leading one.
     let mut expanded: Vec<BigInt> = Vec::new();
     for (i, c) in coefficients.iter().rev().enumerate() {
         let mut next = vec![BigInt::zero(); (expanded.len() + 2).max(i + 1)];
@@ -103,7 +104,7 @@ fn is_cosine_relation(order: u64, relation: &[Element]) -> bool {
     expanded == cyclotomic(order)
 }
 
-/// The cyclotomic polynomial, lowest coefficient first: x^n - 1 divided by those of all proper divisors.
+/// Returns the cyclotomic polynomial, lowest coefficient first: x^n - 1 divided by those of all proper divisors.
 fn cyclotomic(n: u64) -> Vec<BigInt> {
     let divisors: Vec<u64> = (1..=n).filter(|d| n.is_multiple_of(*d)).collect();
     let mut known: Vec<(u64, Vec<BigInt>)> = Vec::new();
@@ -121,7 +122,7 @@ fn cyclotomic(n: u64) -> Vec<BigInt> {
     known.pop().map(|(_, p)| p).unwrap_or_default()
 }
 
-/// The quotient by a monic polynomial that divides.
+/// Returns the quotient by a monic polynomial that divides.
 fn divided(mut a: Vec<BigInt>, b: &[BigInt]) -> Vec<BigInt> {
     let length = (a.len() + 1).saturating_sub(b.len());
     let mut quotient = vec![BigInt::zero(); length];

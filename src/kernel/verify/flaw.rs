@@ -1,28 +1,28 @@
-//! What is wrong with a certificate.
+//! Flaws of certificates.
 
 use thiserror::Error;
 
-/// Why a certificate does not prove its rank.
+/// Reason why a certificate does not prove its rank.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// It is about a matrix of another size.
+    /// It is for a matrix of another size.
     #[error(
         "it is about a {} x {} matrix, and this one is {} x {}", claimed[0], claimed[1], actual[0], actual[1]
     )]
     Shape {
-        /// Rows and columns it states.
+        /// Stated rows and columns.
         claimed: [usize; 2],
-        /// Rows and columns there are.
+        /// Actual rows and columns.
         actual: [usize; 2],
     },
     /// The rank exceeds the matrix.
     #[error("rank {rank} exceeds the size of the matrix")]
     RankTooLarge {
-        /// The rank it states.
+        /// The stated rank.
         rank: usize,
     },
-    /// It is about another number field.
+    /// It is for another number field.
     #[error("its number field is not that of the matrix")]
     FieldDiffers,
     /// A generator is not shown to generate a field.
@@ -30,10 +30,10 @@ pub enum Flaw {
     NotAField {
         /// Position of the generator.
         generator: usize,
-        /// What is missing.
+        /// The missing evidence.
         why: &'static str,
     },
-    /// The modulus is no prime.
+    /// The modulus is not a prime.
     #[error("{modulus} is not a prime between 3 and 2^63")]
     NotPrime {
         /// The modulus.
@@ -44,9 +44,9 @@ pub enum Flaw {
     Images {
         /// The prime.
         prime: u64,
-        /// Images needed.
+        /// Number of images required.
         wanted: usize,
-        /// Images given.
+        /// Number of images given.
         given: usize,
     },
     /// The images do not satisfy a relation of the field.
@@ -63,14 +63,14 @@ pub enum Flaw {
         /// The prime.
         prime: u64,
     },
-    /// The number of pivots is not the rank.
+    /// The number of pivots differs from the rank.
     #[error("{rows} pivot rows and {columns} pivot columns do not show rank {rank}")]
     PivotCount {
-        /// The rank it states.
+        /// The stated rank.
         rank: usize,
-        /// Pivot rows given.
+        /// Number of pivot rows given.
         rows: usize,
-        /// Pivot columns given.
+        /// Number of pivot columns given.
         columns: usize,
     },
     /// Pivots repeat or lie outside the matrix.
@@ -82,18 +82,18 @@ pub enum Flaw {
         /// The prime.
         prime: u64,
     },
-    /// The number of kernel vectors is not what the rank asks for.
+    /// The number of kernel vectors does not match the rank.
     #[error("{given} kernel vectors are given where {wanted} are needed")]
     KernelCount {
-        /// Vectors needed.
+        /// Number of vectors required.
         wanted: usize,
-        /// Vectors given.
+        /// Number of vectors given.
         given: usize,
     },
     /// The free columns are not those without a pivot.
     #[error("the free columns of the kernel are not the columns without a pivot, each once")]
     FreeColumns,
-    /// A kernel vector has entries twice or outside the matrix.
+    /// A kernel vector has repeated entries or entries outside the matrix.
     #[error("kernel vector {vector} has entries that repeat or lie outside the matrix")]
     KernelIndices {
         /// Position of the vector.
@@ -111,7 +111,7 @@ pub enum Flaw {
         /// Position of the vector.
         vector: usize,
     },
-    /// A kernel vector is none.
+    /// A vector is not in the kernel.
     #[error("row {row} of the matrix times kernel vector {vector} is not zero")]
     NotInKernel {
         /// Position of the vector.

@@ -1,4 +1,4 @@
-//! The matrix a certificate is about.
+//! The matrix of a certificate.
 
 use num_bigint::BigInt;
 use num_traits::One;
@@ -17,9 +17,10 @@ pub struct MatrixOverRing {
 }
 
 impl MatrixOverRing {
-    /// A matrix from its entries `(row, column, number)`, those left out being 0; of equal places the last counts.
-    /// `None` where an entry lies outside the matrix or the ring. With `cosine_order` N, the first generator of the
-    /// ring stands for 2 cos(2π/N). O(entries · log).
+    /// Creates a matrix from its entries `(row, column, number)`. Omitted entries are 0, and the last of repeated
+    /// entries counts. With `cosine_order` N, the first generator of the ring represents 2 cos(2π/N). O(entries · log).
+    ///
+    /// Returns `None` if an entry lies outside the matrix or the ring.
     #[must_use]
     pub fn new(
         ring: NumberRing,
@@ -46,47 +47,48 @@ impl MatrixOverRing {
         })
     }
 
-    /// The ring. O(1).
+    /// Returns the ring. O(1).
     #[must_use]
     pub fn ring(&self) -> &NumberRing {
         &self.ring
     }
 
-    /// N where the first generator stands for 2 cos(2π/N). O(1).
+    /// Returns N if the first generator represents 2 cos(2π/N). O(1).
     #[must_use]
     pub fn cosine_order(&self) -> Option<u64> {
         self.cosine_order
     }
 
-    /// Number of rows. O(1).
+    /// Returns the number of rows. O(1).
     #[must_use]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Number of columns. O(1).
+    /// Returns the number of columns. O(1).
     #[must_use]
     pub fn columns(&self) -> usize {
         self.columns.len()
     }
 
-    /// The nonzero entries of a column, rows ascending. O(1).
+    /// Returns the nonzero entries of a column, rows ascending. O(1).
     ///
     /// # Panics
-    /// Where there is no such column.
+    /// Panics if there is no such column.
     #[must_use]
     pub fn column(&self, column: usize) -> &[(usize, Element)] {
         &self.columns[column]
     }
 
-    /// The nonzero entries as (row, column, number), column by column. O(1) each.
+    /// Returns the nonzero entries as (row, column, number), column by column. O(1) each.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &Element)> {
         let columns = self.columns.iter().enumerate();
         columns.flat_map(|(c, column)| column.iter().map(move |(r, x)| (*r, c, x)))
     }
 
-    /// The nonzero entries, column by column, each times the common denominator of its row: the matrix of a multiple of each row, of
-    /// integral combinations of the monomials. O(entries) greatest common divisors.
+    /// Returns the nonzero entries, column by column, each times the common denominator of its row. This is the matrix
+    /// with each row multiplied, whose entries are integral combinations of the monomials. O(entries) greatest common
+    /// divisors.
     #[must_use]
     pub(crate) fn integral_rows(&self) -> Vec<Vec<Vec<BigInt>>> {
         let mut below = vec![BigInt::one(); self.rows];
@@ -98,7 +100,7 @@ impl MatrixOverRing {
         columns.map(|c| c.iter().map(integral).collect()).collect()
     }
 
-    /// A nonzero entry. O(log entries of the column).
+    /// Returns a nonzero entry. O(log entries of the column).
     #[must_use]
     pub fn entry(&self, row: usize, column: usize) -> Option<&Element> {
         let entries = self.columns.get(column)?;

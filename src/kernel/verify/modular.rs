@@ -1,4 +1,4 @@
-//! Plain arithmetic modulo a prime below 2^63, in 128 bits.
+//! Simple arithmetic modulo a prime below 2^63, in 128 bits.
 
 use super::flaw::Flaw;
 use crate::linalg::number_ring::{Element, NumberRing};
@@ -7,19 +7,19 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-/// Product modulo p.
+/// Returns the product modulo p.
 pub(super) fn times(a: u64, b: u64, p: u64) -> u64 {
     let product = u128::from(a) * u128::from(b) % u128::from(p);
     u64::try_from(product).unwrap_or(0)
 }
 
-/// Sum modulo p.
+/// Returns the sum modulo p.
 pub(super) fn plus(a: u64, b: u64, p: u64) -> u64 {
     let sum = (u128::from(a) + u128::from(b)) % u128::from(p);
     u64::try_from(sum).unwrap_or(0)
 }
 
-/// Power modulo p.
+/// Returns the power modulo p.
 pub(super) fn power(mut base: u64, mut exponent: u64, p: u64) -> u64 {
     let mut out = 1 % p;
     while exponent > 0 {
@@ -32,7 +32,7 @@ pub(super) fn power(mut base: u64, mut exponent: u64, p: u64) -> u64 {
     out
 }
 
-/// Whether p is a prime with 2 < p < 2^63 (strong pseudoprime test with the twelve bases that decide 64 bits).
+/// Returns true if p is a prime with 2 < p < 2^63 (strong pseudoprime test with the twelve bases that decide 64 bits).
 ///
 /// # Sources
 /// Sorenson & Webster, "Strong pseudoprimes to twelve prime bases", Math. Comp. 86 (2017).
@@ -68,13 +68,13 @@ pub(super) fn is_odd_prime(p: u64) -> bool {
 pub(super) struct Homomorphism {
     prime: u64,
     images: Vec<u64>,
-    /// Images of the basis elements made of the generators given.
+    /// Images of the basis elements formed from the given generators.
     basis: Vec<u64>,
 }
 
 impl Homomorphism {
-    /// Images of the first generators of a ring: of all of them, or as many as are given, which
-    /// [`Homomorphism::respects`] checks.
+    /// Creates the images of the first generators of a ring: of all of them, or of as many as are given.
+    /// [`Homomorphism::respects`] checks the number.
     pub(super) fn new(prime: u64, images: &[u64], ring: &NumberRing) -> Result<Homomorphism, Flaw> {
         if !is_odd_prime(prime) {
             return Err(Flaw::NotPrime { modulus: prime });
@@ -127,7 +127,7 @@ impl Homomorphism {
         Ok(())
     }
 
-    /// Whether no image is a multiple root of its relation.
+    /// Returns true if no image is a multiple root of its relation.
     pub(super) fn simple(&self, ring: &NumberRing) -> Result<bool, Flaw> {
         for (generator, &x) in self.images.iter().enumerate() {
             let (relation, p) = (ring.relation(generator), self.prime);
@@ -142,7 +142,7 @@ impl Homomorphism {
         Ok(true)
     }
 
-    /// The image of an element made of the generators that have one.
+    /// Returns the image of an element formed from the generators that have one.
     pub(super) fn of(&self, element: &Element) -> Result<u64, Flaw> {
         let mut sum = 0;
         for (i, q) in element.coordinates().iter().enumerate() {
@@ -164,7 +164,7 @@ impl Homomorphism {
     }
 }
 
-/// Whether the determinant of a square matrix vanishes modulo p, by elimination. O(n³).
+/// Returns true if the determinant of a square matrix vanishes modulo p, by elimination. O(n³).
 pub(super) fn singular(mut m: Vec<Vec<u64>>, p: u64) -> bool {
     let size = m.len();
     for c in 0..size {
