@@ -1,5 +1,5 @@
-//! Exact geometry: expressions with roots and rational-degree cosines, their images in a prime field, the number field they lie in, and
-//! the number systems a mechanism is evaluated in: residues modulo a prime (exact), `f64` (measured).
+//! Exact geometry: expressions with roots and rational-degree cosines, their images in a prime field, and their number
+//! field. A mechanism is evaluated in one of two number systems: residues modulo a prime (exact) or `f64` (measured).
 
 pub mod exact;
 pub(crate) mod exact_vector;
@@ -15,44 +15,44 @@ use crate::geom::extent::Extent;
 use crate::linalg::modp::Residue;
 use std::fmt::Debug;
 
-/// A commutative ring that expressions can be evaluated in. Division is left out on purpose: joint frames need none.
+/// A commutative ring in which expressions can be evaluated. Division is deliberately missing, because joint frames do
+/// not need it.
 pub trait Scalars: Sync {
     /// A number.
     type Number: Clone + PartialEq + Debug + Default + Send + Sync;
 
-    /// The value of an expression.
+    /// Returns the value of an expression.
     ///
     /// # Errors
-    /// Where the number system has no such value.
+    /// Returns an error if the number system has no such value.
     fn eval(&self, expr: &Expr) -> Result<Self::Number, ExactError>;
-    /// Sum.
+    /// Returns the sum.
     fn add(&self, a: Self::Number, b: Self::Number) -> Self::Number;
-    /// Difference.
+    /// Returns the difference.
     fn sub(&self, a: Self::Number, b: Self::Number) -> Self::Number;
-    /// Product.
+    /// Returns the product.
     fn mul(&self, a: Self::Number, b: Self::Number) -> Self::Number;
 
-    /// Whether `x` is zero as far as this number system can tell, where `square` is the square of what it would be
-    /// measured against.
+    /// Returns true if `x` is zero within this number system; `square` is the square of the reference size.
     fn vanishes(&self, x: Self::Number, square: Self::Number) -> bool {
         let _ = square;
         x == Self::Number::default()
     }
 
-    /// Where some points are and how large the set is; none where numbers have no size.
+    /// Returns the position and size of a set of points, or `None` if numbers have no size.
     fn extent(&self, _points: &[&[Expr; 3]]) -> Option<Extent> {
         None
     }
 
-    /// The value of a vector of expressions.
+    /// Returns the value of a vector of expressions.
     ///
     /// # Errors
-    /// As [`Scalars::eval`].
+    /// Returns an error in the same cases as [`Scalars::eval`].
     fn eval3(&self, v: &[Expr; 3]) -> Result<[Self::Number; 3], ExactError> {
         Ok([self.eval(&v[0])?, self.eval(&v[1])?, self.eval(&v[2])?])
     }
 
-    /// Scalar product.
+    /// Returns the scalar product.
     fn dot(&self, a: [Self::Number; 3], b: [Self::Number; 3]) -> Self::Number {
         let [a0, a1, a2] = a;
         let [b0, b1, b2] = b;
@@ -60,14 +60,14 @@ pub trait Scalars: Sync {
         self.add(s, self.mul(a2, b2))
     }
 
-    /// Vector product.
+    /// Returns the vector product.
     fn cross(&self, a: [Self::Number; 3], b: [Self::Number; 3]) -> [Self::Number; 3] {
         let product = |i: usize, j: usize| self.mul(a[i].clone(), b[j].clone());
         let minor = |i: usize, j: usize| self.sub(product(i, j), product(j, i));
         [minor(1, 2), minor(2, 0), minor(0, 1)]
     }
 
-    /// `s·a + b`.
+    /// Returns `s·a + b`.
     fn scaled_sum(
         &self,
         s: Self::Number,

@@ -1,9 +1,10 @@
 //! The image of exact expressions in a prime field, under one consistent choice of roots.
 //!
-//! With N a multiple of 4 and of every angle's denominator (in turns), all cosines live in Q(zeta_N); a prime
-//! `p = 1 mod N` carries that field into F_p. Square roots of primes that divide N already lie in Q(zeta_N), so they
-//! have to be the Gauss sums; all other square roots are independent of it, and either root in F_p will do. The result
-//! is a true ring homomorphism: whatever vanishes stays zero, and a nonzero number becomes zero only for the rare
+//! With N a multiple of 4 and of every angle's denominator (in turns), all cosines lie in Q(zeta_N). A prime `p = 1 mod
+//! N` maps that field into F_p. Square roots of primes that divide N already lie in Q(zeta_N), so they have to be the
+//! Gauss sums. All other square roots are independent of it, and either root in F_p is valid.
+//!
+//! The result is a true ring homomorphism: zero maps to zero, and a nonzero number maps to zero only for the rare
 //! primes that divide its norm.
 //!
 //! # Sources
@@ -24,14 +25,14 @@ use crate::linalg::modp::{Field, Residue};
 use std::collections::BTreeMap;
 
 impl ExactField {
-    /// The homomorphism into the `nth` suitable prime field above 2^61; the same expressions give the same field, others most
-    /// likely another.
+    /// Creates the homomorphism into the `nth` suitable prime field above 2^61. The same expressions give the same
+    /// field, others most likely a different one.
     ///
     /// Costs O(`nth`) prime searches, each of 2^k candidates for k independent roots, and O(q) for every prime q both
     /// under a root and in an angle.
     ///
     /// # Errors
-    /// An [`ExactError`] where a divisor is zero, a nested root is ambiguous, or a limit on roots is exceeded.
+    /// Returns an [`ExactError`] if a divisor is zero, a nested root is ambiguous, or a limit on roots is exceeded.
     pub fn for_expressions<'a>(
         exprs: impl IntoIterator<Item = &'a Expr>,
         nth: usize,
@@ -66,10 +67,11 @@ impl ExactField {
         Err(ExactError::NoPrime { nth })
     }
 
-    /// The homomorphism of rational numbers alone into the field of a prime; what has roots or angles has no value there.
+    /// Creates the homomorphism of the rational numbers into the field of a prime. Expressions with roots or angles
+    /// have no value there.
     ///
     /// # Panics
-    /// As [`Field::new`].
+    /// Panics in the same cases as [`Field::new`].
     #[must_use]
     pub fn of_prime(p: u64) -> ExactField {
         let field = Field::new(p);
@@ -83,17 +85,17 @@ impl ExactField {
         }
     }
 
-    /// The field of residues. O(1).
+    /// Returns the field of residues. O(1).
     #[must_use]
     pub fn field(&self) -> Field {
         self.field
     }
 
-    /// The image of an expression. O(nodes), each shared node once.
+    /// Returns the image of an expression. O(nodes), each shared node once.
     ///
     /// # Errors
-    /// [`ExactError::NotInField`] for roots or angles beyond those the field was made for, and
-    /// [`ExactError::DivisionByZero`] where a divisor vanishes in F_p.
+    /// Returns [`ExactError::NotInField`] for roots or angles beyond those the field was made for, and
+    /// [`ExactError::DivisionByZero`] if a divisor vanishes in F_p.
     pub fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
         eval::eval(self, expr)
     }
@@ -195,7 +197,7 @@ mod tests {
         fn sums_of_products_vanish_exactly_where_the_doubles_do(
             a in -4i64..5, b in -4i64..5, c in -4i64..5, n in 3i64..13, q in 2i64..30, nth in 0usize..3,
         ) {
-            // (a + b sqrt q)(c + cos) expanded, and off by one term
+            // (a + b sqrt q)(c + cos) expanded, with one term off by one
             let exact: Expr = format!(
                 "({a}+({b})*sqrt({q}))*({c}+cos(360deg/{n}))-(({a})*({c})+({a})*cos(360deg/{n})+({b})*({c})*sqrt({q})\
                  +({b})*sqrt({q})*cos(360deg/{n}))"

@@ -1,10 +1,11 @@
 //! Coordinates as the designer writes them, kept exact.
 //!
 //! An [`Expr`] is a tree over rationals, square roots and cosines of rational angles. Every node carries a rigorous
-//! 256-bit enclosure of its value, so that signs, and an `f64` that survives cancellation, come for free.
+//! 256-bit enclosure of its value, so that signs, and an `f64` that survives cancellation, cost nothing extra.
 //!
-//! π is in none of the fields that these span. Where a pitch needs it, its first [`PI_DIGITS`] decimals stand for it, the same
-//! everywhere, so that ratios of pitches are exact; [`Expr::has_pi`] tells, and what is found with it is not called exact.
+//! π is in none of the fields that these span. If a pitch needs it, it is replaced by its first [`PI_DIGITS`] decimals,
+//! the same everywhere, so that ratios of pitches are exact. [`Expr::has_pi`] detects this, and results that depend on
+//! it are not called exact.
 
 mod enclosure;
 mod error;
@@ -33,17 +34,17 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 impl Expr {
-    /// The expression of a rational number. O(1).
+    /// Creates the expression of a rational number. O(1).
     #[must_use]
     pub fn rational(value: BigRational) -> Expr {
         Expr::new(NodeKind::Rational(value))
     }
 
-    /// The shortest decimal that reads back as `x`, taken exactly: `0.1` is one tenth, as the designer meant. It has that
-    /// decimal's [`half_unit`](Expr::half_unit); a whole number has none.
+    /// Converts the shortest decimal that reads back as `x`, taken exactly: `0.1` is one tenth, as the designer
+    /// intended. It has that decimal's [`half_unit`](Expr::half_unit); a whole number has none.
     ///
     /// # Errors
-    /// [`ExprError::NonFiniteFloat`] for infinities and NaN.
+    /// Returns [`ExprError::NonFiniteFloat`] for infinities and NaN.
     pub fn from_f64(x: f64) -> Result<Expr, ExprError> {
         let bad = || ExprError::NonFiniteFloat {
             value: x.to_string(),
@@ -65,8 +66,8 @@ impl Expr {
         Ok(value.written_as(written))
     }
 
-    /// The nearest double, right to the last bit or nearly so even after cancellation; values that vanish to all 256
-    /// bits give 0, and those beyond the range of `f64` an infinity. O(1).
+    /// Returns the nearest double, right to the last bit or nearly so even after cancellation. Values that vanish to
+    /// all 256 bits give 0, and those beyond the range of `f64` an infinity. O(1).
     ///
     /// # Examples
     /// ```
@@ -78,32 +79,32 @@ impl Expr {
         self.0.enclosure.to_f64()
     }
 
-    /// The rational this expression has been folded to, if it has. O(size of the number).
+    /// Returns the rational that this expression was folded to, if any. O(size of the number).
     #[must_use]
     pub fn as_rational(&self) -> Option<BigRational> {
         self.rational_ref().cloned()
     }
 
-    /// π to [`PI_DIGITS`] decimals.
+    /// Returns π to [`PI_DIGITS`] decimals.
     #[must_use]
     pub fn pi() -> Expr {
         Expr::new(NodeKind::Pi)
     }
 
-    /// Whether digits stand for π in it.
+    /// Returns true if the expression contains π as decimals.
     #[must_use]
     pub fn has_pi(&self) -> bool {
         let leaf = |e: &&Expr| matches!(e.kind(), NodeKind::Pi);
         self.rational_ref().is_none() && self.post_order().iter().any(leaf)
     }
 
-    /// Whether the expression has been folded to the rational 0. O(1).
+    /// Returns true if the expression was folded to the rational 0. O(1).
     #[must_use]
     pub fn is_zero_rational(&self) -> bool {
         self.rational_ref().is_some_and(Zero::is_zero)
     }
 
-    /// Whether two expressions are one, or the same rational; `false` says nothing. O(1).
+    /// Returns true if two expressions are identical, or the same rational; `false` decides nothing. O(1).
     pub fn is_same(&self, other: &Expr) -> bool {
         let rationals = (self.rational_ref(), other.rational_ref());
         Arc::ptr_eq(&self.0, &other.0) || matches!(rationals, (Some(a), Some(b)) if a == b)
@@ -120,12 +121,13 @@ impl Expr {
         &self.0.kind
     }
 
-    /// Identifies the shared node, for memo tables that live no longer than the expression.
+    /// Returns an identifier of the shared node, for memo tables that live no longer than the expression.
     pub(crate) fn id(&self) -> usize {
         Arc::as_ptr(&self.0) as usize
     }
 
-    /// Every distinct node once, children before parents; iterative because trees built in loops are deep.
+    /// Returns every distinct node once, children before parents. This is iterative because trees built in loops are
+    /// deep.
     pub(crate) fn post_order(&self) -> Vec<&Expr> {
         let (mut order, mut seen, mut stack) = (Vec::new(), HashSet::new(), vec![(self, false)]);
         while let Some((e, expanded)) = stack.pop() {
@@ -141,7 +143,7 @@ impl Expr {
         order
     }
 
-    /// The square root, or `None` for a negative number.
+    /// Returns the square root, or `None` for a negative number.
     pub(crate) fn sqrt(&self) -> Option<Expr> {
         if self.0.enclosure.hi.is_negative() {
             return None;
@@ -154,7 +156,7 @@ impl Expr {
         Some(Expr::new(NodeKind::Sqrt(self.clone())))
     }
 
-    /// The quotient, or `None` where the divisor cannot be told from zero.
+    /// Returns the quotient, or `None` if the divisor cannot be distinguished from zero.
     pub fn div(&self, other: &Expr) -> Option<Expr> {
         if other.0.enclosure.has_zero() {
             return None;
@@ -170,13 +172,13 @@ impl Expr {
         Some(Expr::new(NodeKind::Div(self.clone(), other.clone())))
     }
 
-    /// The function of `k/n` turns (any integer `k`, `n > 0`), or `None` at a pole.
+    /// Returns the function of `k/n` turns (any integer `k`, `n > 0`), or `None` at a pole.
     pub(crate) fn trig(function: Function, k: u64, n: u64) -> Option<Expr> {
         let n = n.max(1);
         let g = (k % n).gcd(&n);
         let (k, n) = (k % n / g, n / g);
         let int = |x: i64| Some(Expr::from(x));
-        // By Niven's theorem these are all the rational values.
+        // By Niven's theorem these are all rational values.
         match (function, k, n) {
             (Function::Cos, 0, 1) => int(1),
             (Function::Cos, _, 2) => int(-1),
@@ -186,7 +188,7 @@ impl Expr {
             (Function::Sin, k, 4) => int(if k == 1 { 1 } else { -1 }),
             (Function::Sin, k, 12) => {
                 let sign = if k < 6 { 1 } else { -1 };
-                // k = 1, 5 is 30deg, 150deg; 7, 11 their opposites.
+                // k = 1, 5 is 30deg, 150deg; 7, 11 are opposite.
                 Some(Expr::rational(BigRational::new(sign.into(), 2.into())))
             }
             (Function::Tan, _, 4) => None,
@@ -293,8 +295,8 @@ mod tests {
         assert_eq!((&tiny + &Expr::from(1)).to_f64(), 1.0);
     }
 
-    /// Returns a text, its value in doubles, and the size to which the error of that value is relative: terms that cancel leave
-    /// the error of the terms.
+    /// Returns a text, its value in doubles, and the size to which the error of that value is relative. Terms that
+    /// cancel leave their errors.
     fn text() -> impl Strategy<Value = (String, f64, f64)> {
         let leaf = prop_oneof![
             (1i64..50).prop_map(|x| (x.to_string(), x as f64)),

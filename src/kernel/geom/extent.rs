@@ -1,24 +1,24 @@
-//! Where a set of points is and how large it is, for arithmetic that should not depend on the unit or the origin.
+//! Position and size of a set of points, for arithmetic that should not depend on the unit or the origin.
 
 use crate::geom::expr::Expr;
 use crate::geom::vector::{Vector, length, sub};
 use num_rational::BigRational;
 
-/// Sets smaller than this, in the file's unit, are single points at the origin and have no size.
+/// Size, in the file's unit, below which sets are single points at the origin without a size.
 const POINT: f64 = 1e-9;
-/// Differences below this fraction of the coordinates are rounding errors.
+/// Fraction of the coordinates below which differences are rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// The middle of a box round some points, and half its diagonal.
+/// The middle of the bounding box of some points, and half its diagonal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
     /// The middle.
     pub middle: [f64; 3],
-    /// Half the diagonal; where the points are one point but for rounding, their distance from the origin; 1 for the origin.
+    /// Half the diagonal. If the points coincide up to rounding, their distance from the origin; 1 for the origin.
     pub length: f64,
 }
 
-/// The corners of the box round some points; the origin where there are none.
+/// Returns the corners of the bounding box of some points, or the origin if there are none.
 fn corners(points: impl Iterator<Item = Vector> + Clone) -> [Vector; 2] {
     let bound = |pick: fn(f64, f64) -> f64| {
         let each = |a: Vector, b: Vector| std::array::from_fn(|i| pick(a[i], b[i]));
@@ -27,7 +27,7 @@ fn corners(points: impl Iterator<Item = Vector> + Clone) -> [Vector; 2] {
     [bound(f64::min), bound(f64::max)]
 }
 
-/// The diagonal of the box round some points, however small; 0 for one point and for none.
+/// Returns the diagonal of the bounding box of some points, however small; 0 for one point and for none.
 #[must_use]
 pub fn diagonal(points: impl Iterator<Item = Vector> + Clone) -> f64 {
     let [low, high] = corners(points);
@@ -35,7 +35,7 @@ pub fn diagonal(points: impl Iterator<Item = Vector> + Clone) -> f64 {
 }
 
 impl Extent {
-    /// The extent of some points.
+    /// Returns the extent of some points.
     #[must_use]
     pub fn of(points: &[[f64; 3]]) -> Extent {
         let [low, high] = corners(points.iter().copied());
@@ -55,14 +55,14 @@ impl Extent {
     }
 }
 
-/// The middle and the size of some points as exact numbers. What is measured from the one and by the other is rounded once, so
-/// that it is the same number in every unit of length.
+/// The middle and the size of some points as exact numbers. Relative positions and lengths are rounded once, so that
+/// they are the same numbers in every unit of length.
 #[derive(Debug, Clone)]
 pub struct OwnScale {
     middle: [Expr; 3],
-    /// Half the longest side of the box, or what takes its place.
+    /// Half the longest side of the box, or its substitute.
     unit: Expr,
-    /// Half the diagonal over that.
+    /// Half the diagonal over that unit.
     diagonal: f64,
 }
 
@@ -114,7 +114,7 @@ impl OwnScale {
         }
     }
 
-    /// Returns a length over that of the extent.
+    /// Returns the ratio of a length to that of the extent.
     #[must_use]
     pub fn part(&self, x: &Expr) -> f64 {
         x.div(&self.unit).map_or(0.0, |x| x.to_f64()) / self.diagonal
@@ -126,7 +126,7 @@ impl OwnScale {
         (x * &self.unit).to_f64() * self.diagonal
     }
 
-    /// Returns a point from the middle, over the length of the extent.
+    /// Returns a point relative to the middle, over the length of the extent.
     #[must_use]
     pub fn place(&self, point: &[Expr; 3]) -> Vector {
         [0, 1, 2].map(|i| self.part(&(&point[i] - &self.middle[i])))

@@ -1,7 +1,7 @@
 //! The real number field that exact expressions generate, in characteristic 0.
 //!
-//! With the classification of [`super::exact`]: N a multiple of 4 and of every angle's denominator, the field is
-//! Q(c)(roots) with c = 2 cos(2π/N) of degree φ(N)/2, where roots of primes that divide N are Gauss sums in c, and all
+//! This uses the classification of [`super::exact`], with N a multiple of 4 and of every angle's denominator. The field
+//! is Q(c)(roots) with c = 2 cos(2π/N) of degree φ(N)/2. Roots of primes that divide N are Gauss sums in c, and all
 //! other roots are adjoined, each of degree 2.
 //!
 //! # Sources
@@ -27,10 +27,10 @@ use super::expr::Expr;
 use crate::linalg::number_ring::{Element, NumberRing};
 use cosine::cosine_relation;
 
-/// The largest degree of a field over the rationals.
+/// Maximum degree of a field over the rationals.
 pub const MAX_DEGREE: u64 = 64;
 
-/// Why expressions have no number field to compute in.
+/// Reason why expressions have no number field to compute in.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NumberFieldError {
@@ -53,7 +53,7 @@ pub struct NumberField {
     ring: NumberRing,
     /// N
     order: u64,
-    /// Primes are taken 1 modulo this multiple of N to split the field, as far as that is known to help.
+    /// Primes are 1 modulo this multiple of N to split the field, as far as that is known to help.
     modulus: u64,
     /// 2 cos(2πk/N) for k < N
     cosines: Vec<Element>,
@@ -64,11 +64,11 @@ pub struct NumberField {
 }
 
 impl NumberField {
-    /// The field that some expressions generate. O(N · degree) for the cosines, besides the classification of
-    /// [`super::exact::ExactField::for_expressions`].
+    /// Creates the field that some expressions generate. O(N · degree) for the cosines, in addition to the
+    /// classification of [`super::exact::ExactField::for_expressions`].
     ///
     /// # Errors
-    /// A [`NumberFieldError`] where the roots are not resolved or the degree is too large.
+    /// Returns a [`NumberFieldError`] if the roots are not resolved or the degree is too large.
     pub fn for_expressions<'a>(
         exprs: impl IntoIterator<Item = &'a Expr>,
     ) -> Result<NumberField, NumberFieldError> {
@@ -125,7 +125,7 @@ impl NumberField {
         Ok(field)
     }
 
-    /// Adjoins y with y² = d² · radicand, where d makes that integral; the root is y/d.
+    /// Adjoins y with y² = d² · radicand, with d chosen to make that integral; the root is y/d.
     fn adjoin_root(&mut self, radicand: &Element) -> Option<Element> {
         let below = radicand.coordinates().iter();
         let d = below.fold(BigInt::one(), |d, q| d.lcm(q.denom()));
@@ -137,7 +137,7 @@ impl NumberField {
         Some(self.ring.mul(&y, &scale))
     }
 
-    /// The positive root of a prime that divides N (as 8 does where the prime is 2).
+    /// Returns the positive root of a prime that divides N (as 8 does if the prime is 2).
     fn gauss_sum(&self, q: u64) -> Element {
         let half = BigRational::new(1.into(), 2.into());
         if q == 2 {
@@ -157,31 +157,31 @@ impl NumberField {
         self.ring.mul(&sum, &Element::rational(half))
     }
 
-    /// 2 cos(2πk/N)
+    /// Returns 2 cos(2πk/N).
     fn cosine(&self, k: u64) -> &Element {
         let at = usize::try_from(k % self.order).unwrap_or(0);
         &self.cosines[at]
     }
 
-    /// The ring the field is computed in. O(1).
+    /// Returns the ring the field is computed in. O(1).
     #[must_use]
     pub fn ring(&self) -> &NumberRing {
         &self.ring
     }
 
-    /// N where the first generator of the ring is 2 cos(2π/N); `None` where all cosines are rational. O(1).
+    /// Returns N if the first generator of the ring is 2 cos(2π/N), or `None` if all cosines are rational. O(1).
     #[must_use]
     pub fn cosine_order(&self) -> Option<u64> {
         (self.first_root() == 1).then_some(self.order)
     }
 
-    /// Position of the first generator that is a root.
+    /// Returns the index of the first generator that is a root.
     fn first_root(&self) -> usize {
         usize::from(self.cosines[1].coordinates().len() > 1)
     }
 }
 
-/// Whether a is a square modulo an odd prime that is small enough to multiply residues of.
+/// Returns true if a is a square modulo an odd prime that is small enough for products of residues.
 fn is_square(a: u64, q: u64) -> bool {
     (1..=q / 2).any(|x| x * x % q == a)
 }
@@ -309,7 +309,7 @@ mod tests {
         }
     }
 
-    /// The real values of the generators.
+    /// Returns the real values of the generators.
     fn values(f: &NumberField) -> Vec<f64> {
         let mut out = Vec::new();
         if f.cosine_order().is_some() {
@@ -350,7 +350,7 @@ mod tests {
                 "({d}/7-sin({k}*360deg/{n})*{under})^3/(2*sqrt({d})+cos({k}*360deg/{n})+{under})-cos(360deg/{n})*sqrt(5)"
             );
             let e: Expr = text.parse().unwrap();
-            // Degrees over the limit, and nested roots that lie in the field already, are not the matter here.
+            // Degrees over the limit, and nested roots that lie in the field already, are not tested here.
             if let Ok(f) = NumberField::for_expressions([&e]) {
                 let value = Scalars::eval(&f, &e).unwrap();
                 let (is, should) = (real(&f, &value, &values(&f)), e.to_f64());

@@ -1,33 +1,33 @@
-//! Rigid motions of space: where a body goes, or where a frame is in another.
+//! Rigid motions of space: displacements of a body, or the position of a frame in another.
 
 use crate::geom::vector::{Vector, X, Y, Z, across, add, cross, dot, length, scale};
 
 /// A twist (ω; v): angular velocity, then the velocity of the point at the origin.
 pub type Twist = [f64; 6];
 
-/// Angular velocity and velocity of a twist, or moment and force of a wrench.
+/// Returns angular velocity and velocity of a twist, or moment and force of a wrench.
 #[must_use]
 pub fn halves(t: &Twist) -> (Vector, Vector) {
     ([t[0], t[1], t[2]], [t[3], t[4], t[5]])
 }
 
-/// A rotation and then a translation.
+/// A rotation followed by a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
     /// The rotation matrix, by rows.
     pub rotation: [Vector; 3],
-    /// Where the origin goes.
+    /// The image of the origin.
     pub translation: Vector,
 }
 
 impl RigidMotion {
-    /// No motion.
+    /// The identity.
     pub const IDENTITY: RigidMotion = RigidMotion {
         rotation: [X, Y, Z],
         translation: [0.0; 3],
     };
 
-    /// A shift without a turn.
+    /// Returns a translation without rotation.
     #[must_use]
     pub fn shift(translation: Vector) -> RigidMotion {
         RigidMotion {
@@ -36,7 +36,7 @@ impl RigidMotion {
         }
     }
 
-    /// The turn about an axis of any length through the origin `[rad]`; quarter turns are exact.
+    /// Returns the rotation about an axis of any length through the origin `[rad]`; quarter turns are exact.
     #[must_use]
     pub fn turn(axis: Vector, angle: f64) -> RigidMotion {
         let exact = |x: f64| {
@@ -53,7 +53,8 @@ impl RigidMotion {
         }
     }
 
-    /// The turn by fixed-axis roll, pitch and yaw, as in URDF and SDF: Rz(yaw)·Ry(pitch)·Rx(roll), and a shift.
+    /// Returns the rotation by fixed-axis roll, pitch and yaw, as in URDF and SDF: Rz(yaw)·Ry(pitch)·Rx(roll), and a
+    /// translation.
     #[must_use]
     pub fn roll_pitch_yaw(translation: Vector, angles: Vector) -> RigidMotion {
         let turns = [X, Y, Z].into_iter().zip(angles);
@@ -66,7 +67,7 @@ impl RigidMotion {
         }
     }
 
-    /// The turn by a quaternion w, x, y, z of any length but zero, and a shift.
+    /// Returns the rotation by a quaternion w, x, y, z of any nonzero length, and a translation.
     #[must_use]
     pub fn quaternion(translation: Vector, q: [f64; 4]) -> RigidMotion {
         let n = dot(q, q);
@@ -95,7 +96,7 @@ impl RigidMotion {
         }
     }
 
-    /// The least turn that takes z to an axis.
+    /// Returns the smallest rotation that takes z to an axis.
     #[must_use]
     pub fn z_to(axis: Vector) -> RigidMotion {
         let to = towards(axis);
@@ -110,7 +111,7 @@ impl RigidMotion {
         RigidMotion::turn(about, length(about).atan2(dot(Z, to)))
     }
 
-    /// The exponential of a unit twist (unit angular velocity, or none) times `q`.
+    /// Returns the exponential of a unit twist (unit angular velocity, or none) times `q`.
     ///
     /// # Sources
     /// Lynch & Park, "Modern Robotics", 2017, proposition 3.25.
@@ -131,8 +132,8 @@ impl RigidMotion {
         }
     }
 
-    /// The product self·inner: a place within the frame that this motion has carried along, or this motion after
-    /// another in fixed axes.
+    /// Returns the product self·inner: a position within the frame moved by this motion, or this motion after another
+    /// in fixed axes.
     #[must_use]
     pub fn then(&self, inner: &RigidMotion) -> RigidMotion {
         let column = |j: usize| inner.rotation.map(|row| row[j]);
@@ -143,7 +144,7 @@ impl RigidMotion {
         }
     }
 
-    /// The motion back.
+    /// Returns the inverse motion.
     #[must_use]
     pub fn inverse(&self) -> RigidMotion {
         let r = &self.rotation;
@@ -157,19 +158,19 @@ impl RigidMotion {
         }
     }
 
-    /// Where a point goes.
+    /// Returns the image of a point.
     #[must_use]
     pub fn point(&self, p: Vector) -> Vector {
         add(self.direction(p), self.translation)
     }
 
-    /// Where a direction goes.
+    /// Returns the image of a direction.
     #[must_use]
     pub fn direction(&self, d: Vector) -> Vector {
         self.rotation.map(|row| dot(row, d))
     }
 
-    /// A twist carried along.
+    /// Returns the image of a twist.
     #[must_use]
     pub fn twist(&self, t: &Twist) -> Twist {
         let (w, v) = halves(t);
@@ -178,7 +179,7 @@ impl RigidMotion {
         [w[0], w[1], w[2], v[0] + m[0], v[1] + m[1], v[2] + m[2]]
     }
 
-    /// The axis of the turn times its sine.
+    /// Returns the rotation axis times the sine of the angle.
     #[must_use]
     pub fn sine(&self) -> Vector {
         let r = &self.rotation;
@@ -186,20 +187,20 @@ impl RigidMotion {
         twice.map(|x| x / 2.0)
     }
 
-    /// The cosine of the turn.
+    /// Returns the cosine of the rotation angle.
     #[must_use]
     pub fn cosine(&self) -> f64 {
         let r = &self.rotation;
         (r[0][0] + r[1][1] + r[2][2] - 1.0) / 2.0
     }
 
-    /// The angle of the turn `[rad]`, 0 to π.
+    /// Returns the rotation angle `[rad]`, 0 to π.
     #[must_use]
     pub fn angle(&self) -> f64 {
         length(self.sine()).atan2(self.cosine())
     }
 
-    /// The rotation vector: the axis times the angle `[rad]`, at most π.
+    /// Returns the rotation vector: the axis times the angle `[rad]`, at most π.
     #[must_use]
     pub fn rotation_vector(&self) -> Vector {
         let axis = self.sine();
@@ -224,7 +225,7 @@ impl RigidMotion {
     }
 }
 
-/// The unit vector, or z where there is none.
+/// Returns the unit vector, or z if there is none.
 #[must_use]
 pub fn towards(a: Vector) -> Vector {
     let l = length(a);
@@ -235,7 +236,7 @@ pub fn towards(a: Vector) -> Vector {
     }
 }
 
-/// A direction across an axis: the first of x, y, z that is not parallel to it, made perpendicular.
+/// Returns a direction perpendicular to an axis: the first of x, y, z that is not parallel to it, made perpendicular.
 #[must_use]
 pub fn perpendicular(axis: Vector) -> Vector {
     let z = towards(axis);
@@ -246,7 +247,7 @@ pub fn perpendicular(axis: Vector) -> Vector {
     towards(across(first, z))
 }
 
-/// The rotation about a unit vector (Rodrigues).
+/// Returns the rotation about a unit vector (Rodrigues).
 fn rotation([x, y, z]: Vector, s: f64, c: f64) -> [Vector; 3] {
     let t = 1.0 - c;
     [
@@ -273,7 +274,7 @@ mod tests {
             .prop_map(|(at, q)| RigidMotion::quaternion(at, q))
     }
 
-    /// Largest difference of two motions.
+    /// Returns the largest difference of two motions.
     fn apart(a: &RigidMotion, b: &RigidMotion) -> f64 {
         let rows = a.rotation.iter().zip(b.rotation);
         rows.map(|(a, b)| length(sub(*a, b)))
@@ -342,7 +343,7 @@ mod tests {
     #[test]
     fn roll_comes_first() {
         let p = RigidMotion::roll_pitch_yaw([0.0; 3], [FRAC_PI_2, 0.0, FRAC_PI_2]);
-        // y -> z by the roll; the yaw leaves it there.
+        // The roll takes y to z; the yaw leaves it there.
         assert_eq!(p.direction(Y), Z);
         assert_eq!(p.direction(X), Y);
     }

@@ -12,37 +12,37 @@ pub const Y: Vector = [0.0, 1.0, 0.0];
 /// See [`X`].
 pub const Z: Vector = [0.0, 0.0, 1.0];
 
-/// `a + b`.
+/// Returns `a + b`.
 #[must_use]
 pub fn add<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
-/// `a - b`.
+/// Returns `a - b`.
 #[must_use]
 pub fn sub<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
-/// `s·a`.
+/// Returns `s·a`.
 #[must_use]
 pub fn scale<const N: usize>(a: [f64; N], s: f64) -> [f64; N] {
     a.map(|x| x * s)
 }
 
-/// `a + s·b`.
+/// Returns `a + s·b`.
 #[must_use]
 pub fn add_scaled<const N: usize>(a: [f64; N], s: f64, b: [f64; N]) -> [f64; N] {
     std::array::from_fn(|i| a[i] + s * b[i])
 }
 
-/// Scalar product.
+/// Returns the scalar product.
 #[must_use]
 pub fn dot<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Vector product.
+/// Returns the vector product.
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [
@@ -52,38 +52,38 @@ pub fn cross(a: Vector, b: Vector) -> Vector {
     ]
 }
 
-/// Vector product in the plane, its component along the normal: the moment of force `b` at arm `a`.
+/// Returns the vector product in the plane, its component along the normal: the moment of force `b` at arm `a`.
 #[must_use]
 pub fn cross_plane(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// A vector of the plane after a quarter turn.
+/// Returns a vector of the plane after a quarter turn.
 #[must_use]
 pub fn quarter(v: [f64; 2]) -> [f64; 2] {
     [-v[1], v[0]]
 }
 
-/// A vector of the plane after a turn `[rad]`.
+/// Returns a vector of the plane after a turn `[rad]`.
 #[must_use]
 pub fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (s, c) = angle.sin_cos();
     [c * x - s * y, s * x + c * y]
 }
 
-/// Length.
+/// Returns the length.
 #[must_use]
 pub fn length<const N: usize>(a: [f64; N]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Length of a vector of the plane, rounded once.
+/// Returns the length of a vector of the plane, rounded once.
 #[must_use]
 pub fn norm(v: [f64; 2]) -> f64 {
     v[0].hypot(v[1])
 }
 
-/// The sides of the box round points of the plane; infinite below zero where there are none.
+/// Returns the sides of the bounding box of points of the plane, or negative infinity if there are none.
 #[must_use]
 pub fn sides(points: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|k| {
@@ -92,21 +92,21 @@ pub fn sides(points: &[[f64; 2]]) -> [f64; 2] {
     })
 }
 
-/// The unit vector; not finite where there is none.
+/// Returns the unit vector, which is not finite if there is none.
 #[must_use]
 pub fn unit<const N: usize>(a: [f64; N]) -> [f64; N] {
     let size = length(a);
     a.map(|x| x / size)
 }
 
-/// What is left of a vector without its part along a unit vector.
+/// Returns a vector without its part along a unit vector.
 #[must_use]
 pub fn across(v: Vector, along: Vector) -> Vector {
     let part = dot(v, along);
     std::array::from_fn(|i| v[i] - part * along[i])
 }
 
-/// A vector of the file in double precision.
+/// Converts a vector of the file to double precision.
 #[must_use]
 pub fn real(v: &[Expr; 3]) -> Vector {
     v.each_ref().map(Expr::to_f64)

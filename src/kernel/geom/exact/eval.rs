@@ -1,4 +1,4 @@
-//! The value of an expression in any ring that has its angles and roots.
+//! The value of an expression in any ring with its angles and roots.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -13,20 +13,20 @@ use crate::geom::expr::{Expr, Function, NodeKind, PI};
 pub(crate) trait Target {
     type Number: Clone + PartialEq + Default;
 
-    /// A rational number; `None` where its denominator has no inverse.
+    /// Converts a rational number. Returns `None` if its denominator has no inverse.
     fn rational(&self, r: &BigRational) -> Option<Self::Number>;
     fn sum(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
     fn difference(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
     fn product(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
-    /// `None` where there is none.
+    /// Returns the inverse, or `None` if there is none.
     fn inverse(&self, a: &Self::Number) -> Option<Self::Number>;
-    /// Twice the cosine and the sine of `k/n` turns; `None` for an angle that is not provided for.
+    /// Returns twice the cosine and the sine of `k/n` turns, or `None` for an unsupported angle.
     fn twice_cos_sin(&self, k: u64, n: u64) -> Option<[Self::Number; 2]>;
-    /// The root of a prime, where provided for.
+    /// Returns the root of a prime, if supported.
     fn prime_root(&self, q: u64) -> Option<Self::Number>;
-    /// The root of a nested radicand, where provided for.
+    /// Returns the root of a nested radicand, if supported.
     fn nested_root(&self, radicand: &Self::Number) -> Option<Self::Number>;
-    /// Roots of rationals, factored.
+    /// Returns the factored roots of rationals.
     fn radicals(&self) -> &BTreeMap<BigRational, Radical>;
 
     fn power(&self, a: &Self::Number, n: u64) -> Option<Self::Number> {
@@ -41,7 +41,7 @@ pub(crate) trait Target {
     }
 }
 
-/// The value of an expression. O(nodes), each shared node once.
+/// Returns the value of an expression. O(nodes), each shared node once.
 pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, ExactError> {
     let divides = || ExactError::DivisionByZero {
         expression: expr.to_string(),
@@ -85,7 +85,7 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
     Ok(memo.remove(&expr.id()).unwrap_or_default())
 }
 
-/// The root of `inner`, whose value is `value`.
+/// Returns the root of `inner`, whose value is `value`.
 fn sqrt<T: Target>(target: &T, inner: &Expr, value: &T::Number) -> Result<T::Number, ExactError> {
     if let Some(r) = inner.rational_ref() {
         let made;
@@ -113,7 +113,7 @@ fn sqrt<T: Target>(target: &T, inner: &Expr, value: &T::Number) -> Result<T::Num
     if *value == T::Number::default() {
         return Ok(T::Number::default());
     }
-    // Equal radicands have equal values, however they are written.
+    // Equal radicands have equal values, regardless of how they are written.
     target.nested_root(value).ok_or_else(|| outside(inner))
 }
 

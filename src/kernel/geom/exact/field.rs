@@ -16,7 +16,7 @@ pub struct ExactField {
     pub(super) zeta: Residue,
     pub(super) roots: BTreeMap<u64, Residue>,
     pub(super) radicals: BTreeMap<BigRational, Radical>,
-    /// Radicands of the nested roots with the root chosen.
+    /// Radicands of the nested roots with the chosen root.
     pub(super) nested: Vec<(Residue, Residue)>,
 }
 

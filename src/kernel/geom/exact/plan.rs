@@ -1,4 +1,4 @@
-//! Which roots and angles a number field needs: those of the cyclotomic field, the free ones, the nested ones.
+//! Roots and angles that a number field requires: those of the cyclotomic field, the free ones, and the nested ones.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -14,30 +14,31 @@ use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
 use crate::geom::expr::{Expr, MAX_ANGLE_DENOMINATOR, NodeKind};
 use crate::linalg::modp::{Field, is_prime};
 
-/// Free square roots (of primes, or nested) whose primes are found by rejection, each halving the supply.
+/// Maximum number of free square roots (of primes, or nested) whose primes are found by rejection, each halving the
+/// supply.
 const MAX_FREE: usize = 14;
-/// Nested roots that may be adjoined.
+/// Maximum number of adjoined nested roots.
 const MAX_NESTED: usize = 6;
-/// Primes on which a radicand is tested for being a square.
+/// Number of primes on which a radicand is tested for being a square.
 const WITNESSES: usize = 24;
-/// Candidates tried before the search for primes is given up.
+/// Maximum number of candidates in the search for primes.
 const MAX_CANDIDATES: u64 = 1 << 23;
-/// Primes at which a divisor vanishes before it is taken to be zero: it is a multiple of all of them otherwise.
+/// Number of primes at which a divisor vanishes before it counts as zero. Otherwise it is a multiple of all of them.
 pub(crate) const MAX_FAILURES: usize = 2;
 
-/// What a prime has to provide.
+/// Requirements on a prime.
 #[derive(Debug, Default)]
 pub(crate) struct PrimePlan {
     pub(crate) order: u64,
-    /// Primes are taken 1 modulo this multiple of `order`.
+    /// Primes are 1 modulo this multiple of `order`.
     pub(crate) modulus: u64,
     pub(crate) order_primes: Vec<u64>,
     pub(crate) radicals: BTreeMap<BigRational, Radical>,
-    /// Primes whose roots are needed: within Q(zeta_N), and independent of it.
+    /// Primes whose roots are required: within Q(zeta_N), and independent of it.
     pub(crate) inner_roots: Vec<u64>,
     pub(crate) free_roots: Vec<u64>,
     pub(crate) nested: Vec<Expr>,
-    /// A hash of the expressions, which says where primes are looked for.
+    /// A hash of the expressions that determines where primes are sought.
     seed: u64,
 }
 
@@ -89,7 +90,7 @@ impl PrimePlan {
         Ok(())
     }
 
-    /// Sorts the roots into those of Q(zeta_N) and the free ones, once all angles are known.
+    /// Separates the roots into those of Q(zeta_N) and the free ones, once all angles are known.
     fn finish(&mut self, flat: bool) -> Result<(), ExactError> {
         let mut primes: Vec<u64> = self
             .radicals
@@ -117,8 +118,8 @@ impl PrimePlan {
                 continue;
             }
             self.free_roots.push(q);
-            // By reciprocity q is a square modulo every p = 1 mod 4q. Not with nested roots about, though: those
-            // would then be tested for squares in a larger field than the one at hand.
+            // By reciprocity q is a square modulo every p = 1 mod 4q. This does not apply with nested roots, which
+            // would then be tested for squares in a larger field than this one.
             let wanted = u128::from(self.modulus) * u128::from(if q == 2 { 2 } else { q });
             match u64::try_from(wanted) {
                 Ok(m) if flat && m <= MAX_ANGLE_DENOMINATOR => self.modulus = m,
@@ -134,8 +135,9 @@ impl PrimePlan {
         Ok(())
     }
 
-    /// Whether the root of `inner` has to be adjoined, rather than being known already. On primes where all previous
-    /// radicands are squares, a product of `inner` with some of them is a square exactly when `inner` is: one test covers all products.
+    /// Returns true if the root of `inner` has to be adjoined, rather than being known already. On primes where all
+    /// previous radicands are squares, a product of `inner` with some of them is a square if and only if `inner` is. So
+    /// one test covers all products.
     fn independent(&self, inner: &Expr) -> Result<bool, ExactError> {
         let (mut squares, mut zeros, mut failures) = (0, 0, 0);
         for field in self.fields() {
@@ -174,8 +176,8 @@ impl PrimePlan {
         Err(ExactError::NoPrime { nth: 0 })
     }
 
-    /// Returns the suitable primes between 2^61 and 2^62, the first at a place that the expressions' hash gives. A number
-    /// that is written down does not know its own hash, so that no coordinate holds these primes as factors but by a chance of
+    /// Returns the suitable primes between 2^61 and 2^62, starting at a position given by the expressions' hash. A
+    /// written number does not know its own hash, so coordinates contain these primes as factors only by a chance of
     /// about 2^-55.
     pub(crate) fn fields(&self) -> impl Iterator<Item = ExactField> + '_ {
         let modulus = self.modulus.max(4);
@@ -248,7 +250,7 @@ impl PrimePlan {
     }
 }
 
-/// Returns a hash of some expressions, the same on every machine: that of their trees, each shared node once.
+/// Returns a hash of some expressions that is the same on every machine: that of their trees, each shared node once.
 fn seed(exprs: &[&Expr]) -> u64 {
     let mut hash = Sha256::new();
     for e in exprs {

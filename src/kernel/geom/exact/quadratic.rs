@@ -20,7 +20,7 @@ struct Quadratic {
 
 impl Quadratic {
     fn new(u: BigRational, v: BigRational, d: BigInt) -> Option<Quadratic> {
-        // Denesting is worth a try for what a designer writes, not for towers of digits.
+        // Denesting is useful for numbers that a designer writes, not for towers of digits.
         if u.numer().bits().max(v.numer().bits()) > 2048
             || u.denom().bits().max(v.denom().bits()) > 2048
         {
@@ -84,7 +84,7 @@ impl Quadratic {
         Quadratic::new(&self.u / &norm, -&self.v / &norm, self.d.clone())
     }
 
-    /// Rationals a, b and a sign with `sqrt(self) = sqrt(a) + sign sqrt(b)`.
+    /// Returns rationals a, b and a sign with `sqrt(self) = sqrt(a) + sign sqrt(b)`.
     fn denest(&self) -> Option<(BigRational, BigRational, bool)> {
         let w = rational_sqrt(&self.norm())?;
         let half = BigRational::new(1.into(), 2.into());
@@ -98,7 +98,7 @@ impl Quadratic {
         Some(if minus { a - b } else { a + b })
     }
 
-    /// The cosine of `k/n` turns where it is quadratic.
+    /// Returns the cosine of `k/n` turns if it is quadratic.
     fn cos(k: u64, n: u64) -> Option<Quadratic> {
         let ratio = |a: i64, b: i64| BigRational::new(a.into(), b.into());
         let k = k.min(n.checked_sub(k)?);
@@ -117,7 +117,7 @@ impl Quadratic {
     }
 }
 
-/// The expression as an element of a quadratic field, where every part of it is one.
+/// Returns the expression as an element of a quadratic field, if every part of it is one.
 fn quadratic(expr: &Expr) -> Option<Quadratic> {
     let mut memo: HashMap<usize, Quadratic> = HashMap::new();
     for e in expr.post_order() {
@@ -161,8 +161,8 @@ fn quadratic(expr: &Expr) -> Option<Quadratic> {
     memo.remove(&expr.id())
 }
 
-/// The positive root of `inner` in terms of roots of rationals, and of the half-angle cosines a designer may write
-/// instead, such as `sqrt(10-2*sqrt(5)) = 4 sin 36deg`.
+/// Returns the positive root of `inner` in terms of roots of rationals. The half-angle cosines that a designer may
+/// write instead are also used, such as `sqrt(10-2*sqrt(5)) = 4 sin 36deg`.
 pub(crate) fn denested(inner: &Expr) -> Option<Expr> {
     let a = quadratic(inner)?;
     if let Some(flat) = a.denested() {

@@ -8,17 +8,17 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::geom::expr::Expr;
 use crate::linalg::modp::is_prime;
 
-/// Why expressions have no image in a prime field.
+/// Reason why expressions have no image in a prime field.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExactError {
-    /// A nested root lies in the field already, and its sign could not be settled.
+    /// A nested root lies in the field already, and its sign could not be determined.
     #[error(
         "the nested root sqrt({radicand}) depends on the other roots and angles in a way that is not resolved exactly; \
          write it without nesting, or give a decimal"
     )]
     AmbiguousNestedRoot {
-        /// What stands under the root.
+        /// The number under the root.
         radicand: String,
     },
     /// A divisor is zero.
@@ -32,7 +32,7 @@ pub enum ExactError {
         "the number under sqrt({radicand}) is too large to factor; write it with fewer digits, or give a decimal"
     )]
     RadicandTooLarge {
-        /// What stands under the root.
+        /// The number under the root.
         radicand: String,
     },
     /// The angles have no small common denominator.
@@ -43,17 +43,17 @@ pub enum ExactError {
         "{count} independent square roots exceed the limit of {limit}; give some of them as decimals"
     )]
     TooManyRoots {
-        /// How many there are.
+        /// Number of roots.
         count: usize,
-        /// How many may be.
+        /// Maximum number of roots.
         limit: usize,
     },
-    /// No more primes of the size wanted.
+    /// There are no more primes of the required size.
     #[error(
         "no suitable prime number {nth} below 2^62; ask for fewer, or simplify roots and angles"
     )]
     NoPrime {
-        /// Which prime was asked for.
+        /// Index of the requested prime.
         nth: usize,
     },
     /// The expression was not among those the field was made for.
@@ -66,7 +66,7 @@ pub enum ExactError {
     },
 }
 
-/// Trial division of radicands stops here; Gauss sums, linear in the prime, do too.
+/// Limit of the trial division of radicands, and of Gauss sums, which are linear in the prime.
 pub(crate) const TRIAL_LIMIT: u64 = 1_000_000;
 
 /// `coef * product of sqrt(prime)`: the root of a rational.
@@ -76,8 +76,8 @@ pub(crate) struct Radical {
     pub(crate) primes: Vec<u64>,
 }
 
-/// The root of a nonnegative rational as a rational times roots of distinct primes. Prime factors up to 10^6 are found
-/// by division, and those of a cofactor below 2^64 by Pollard's rho; beyond that only squares are recognised.
+/// Returns the root of a nonnegative rational as a rational times roots of distinct primes. Prime factors up to 10^6
+/// are found by division, and those of a cofactor below 2^64 by Pollard's rho. Beyond that only squares are recognised.
 pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
     let too_large = || ExactError::RadicandTooLarge {
         radicand: Expr::rational(r.clone()).to_string(),
@@ -93,7 +93,7 @@ pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
     }
     let (a, mut primes) = squarefree(r.numer()).ok_or_else(too_large)?;
     let (b, under) = squarefree(r.denom()).ok_or_else(too_large)?;
-    // sqrt(q)/q for the primes below the line, which are distinct from those above it
+    // sqrt(q)/q for the primes in the denominator, which are distinct from those in the numerator
     let below = under.iter().fold(b, |product, q| product * q);
     primes.extend(under);
     primes.sort_unstable();
@@ -103,7 +103,7 @@ pub(crate) fn radical(r: &BigRational) -> Result<Radical, ExactError> {
     })
 }
 
-/// `x = s^2 * product of primes` as `(s, primes)`.
+/// Returns `x = s^2 * product of primes` as `(s, primes)`.
 fn squarefree(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
     let (mut rest, mut root, mut primes) = (x.clone(), BigInt::one(), Vec::new());
     let mut note = |q: u64, count: u32| {
@@ -132,7 +132,7 @@ fn squarefree(x: &BigInt) -> Option<(BigInt, Vec<u64>)> {
     (&s * &s == rest).then(|| (root * s, primes))
 }
 
-/// The prime factors of a number with their multiplicities, in increasing order.
+/// Returns the prime factors of a number with their multiplicities, in increasing order.
 pub(crate) fn factor(mut n: u64) -> Vec<(u64, u32)> {
     let mut primes = Vec::new();
     let mut q = 2u64;
@@ -166,7 +166,7 @@ pub(crate) fn factor(mut n: u64) -> Vec<(u64, u32)> {
     counted
 }
 
-/// A proper divisor of a composite number (Pollard's rho).
+/// Returns a proper divisor of a composite number (Pollard's rho).
 fn split(n: u64) -> u64 {
     let root = n.isqrt();
     if root * root == n {

@@ -6,11 +6,11 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::sync::LazyLock;
 
-/// Bits of precision of an enclosure.
+/// Precision of an enclosure, in bits.
 const PRECISION: u64 = 256;
 /// Scale of the fixed-point cosine series; the spare bits absorb the rounding of its terms.
 const FIXED: u64 = 320;
-/// Binary exponents saturate here, far beyond the range of `f64`.
+/// Limit of binary exponents, far beyond the range of `f64`.
 const EXPONENT_LIMIT: i64 = 1 << 40;
 
 /// A closed interval `[lo, hi] * 2^e` that contains a real number.
@@ -92,7 +92,7 @@ impl Enclosure {
                 e: x.e,
             };
         }
-        // A term that lies far below the other is rounded away rather than aligned, whatever the exponents.
+        // A term far below the other is rounded away rather than aligned, for any exponents.
         let e = self
             .e
             .min(other.e)
@@ -124,7 +124,7 @@ impl Enclosure {
         )
     }
 
-    /// Quotient; a divisor that contains zero (which callers exclude) yields zero.
+    /// Returns the quotient. A divisor that contains zero (which callers exclude) yields zero.
     pub(super) fn div(&self, other: &Enclosure) -> Enclosure {
         if other.has_zero() {
             return Enclosure::new(BigInt::zero(), BigInt::zero(), 0);
@@ -217,12 +217,12 @@ impl Enclosure {
             term = ((term * &square) >> FIXED) / ((2 * j + 1) * (2 * j + 2));
             j += 1;
         }
-        // Some 80 terms of an ulp or two each, times a few for pi.
+        // About 80 terms of an ulp or two each, times a few for pi.
         let slack = BigInt::from(1 << 14);
         Enclosure::new(&sum - &slack, sum + slack, -(FIXED as i64))
     }
 
-    /// The midpoint rounded to nearest even.
+    /// Returns the midpoint rounded to nearest even.
     pub(super) fn to_f64(&self) -> f64 {
         if self.lo.is_negative() && self.hi.is_positive() {
             return 0.0;
@@ -244,7 +244,7 @@ impl Enclosure {
         if top < -1080 {
             return 0.0;
         }
-        // The last bit a double of this size has; subnormals stop at -1074.
+        // The last bit of a double of this size; subnormals stop at -1074.
         let last = (top - 53).max(-1074);
         let shift = last - e;
         let rounded = if shift <= 0 {

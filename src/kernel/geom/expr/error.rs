@@ -1,6 +1,6 @@
-//! Why a text or a float is not an exact number.
+//! Reasons why a text or a float is not an exact number.
 
-/// Why a text or a float is not an exact number.
+/// Reason why a text or a float is not an exact number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExprError {
@@ -13,7 +13,8 @@ pub enum ExprError {
         /// The length of the text in bytes.
         len: usize,
     },
-    /// Written out in full, the numbers in it exceed [`MAX_TEXT`](super::MAX_TEXT) bytes, so that it could not be read again.
+    /// With its numbers written out, the text exceeds [`MAX_TEXT`](super::MAX_TEXT) bytes, so that it could not be read
+    /// again.
     #[error(
         "the expression takes {len} bytes with its numbers written out, over the limit of 1000; use numbers of fewer digits"
     )]
@@ -21,25 +22,25 @@ pub enum ExprError {
         /// The length in bytes.
         len: usize,
     },
-    /// Parentheses are nested over [`MAX_NESTING`](super::MAX_NESTING) deep.
+    /// Parentheses are nested more than [`MAX_NESTING`](super::MAX_NESTING) deep.
     #[error("the parentheses at byte {at} are nested more than 64 deep; simplify the expression")]
     TooDeep {
         /// Byte offset.
         at: usize,
     },
-    /// A character that cannot stand here.
+    /// A character that is not allowed here.
     #[error(
         "found {found} at byte {at} where {expected} should stand; correct the expression there"
     )]
     Unexpected {
         /// Byte offset.
         at: usize,
-        /// What stands there.
+        /// The text found.
         found: String,
-        /// What may stand there.
+        /// The text expected.
         expected: &'static str,
     },
-    /// A word that is no function, constant or unit.
+    /// A word that is not a function, constant or unit.
     #[error(
         "unknown word `{word}` at byte {at}; known are the functions sqrt, cos, sin, tan and cot, and within their \
          angles the constant pi and the suffix deg"
@@ -68,7 +69,7 @@ pub enum ExprError {
         /// Byte offset.
         at: usize,
     },
-    /// A divisor that is zero.
+    /// A divisor of zero.
     #[error(
         "division by zero at byte {at}: the divisor vanishes (to 60 digits at least); correct the divisor"
     )]
@@ -84,7 +85,7 @@ pub enum ExprError {
         /// Byte offset.
         at: usize,
     },
-    /// A trigonometric argument that is no angle.
+    /// A trigonometric argument that is not an angle.
     #[error(
         "the argument of {function} at byte {at} is not a rational angle; give degrees (`36deg`, `360deg/7`) or a \
          rational multiple of pi (`pi/8`)"

@@ -1,12 +1,12 @@
-//! How well a number is known, by how it was written or by what is said of it.
+//! Accuracy of a number, from its written form or a stated uncertainty.
 
 use super::node::{Expr, Node};
 use super::written::{Digits, WrittenNumber};
 use std::sync::Arc;
 
 impl Expr {
-    /// Half a unit of the last digit that was written, of a decimal; or what [`Expr::with_half_unit`] says. `None` for what
-    /// is exact: expressions, roots, fractions, whole numbers, and all that is calculated. O(1).
+    /// Returns half a unit of the last written digit of a decimal, or the value given by [`Expr::with_half_unit`].
+    /// Returns `None` for exact numbers: expressions, roots, fractions, whole numbers, and all calculated values. O(1).
     ///
     /// Trailing zeros count: `0.494` has 5e-4, `0.49400` 5e-6, `1.5e-3` 5e-5.
     #[must_use]
@@ -18,25 +18,26 @@ impl Expr {
         }
     }
 
-    /// The same number, known to within `half` whatever its digits say; exact where `half` is 0. O(size of the number).
+    /// Returns the number with an accuracy of `half`, regardless of its digits. It is exact if `half` is 0. O(size of
+    /// the number).
     #[must_use]
     pub fn with_half_unit(self, half: f64) -> Expr {
         self.written_as(WrittenNumber::Stated(half))
     }
 
-    /// Whether it was written as a whole number, without a point. O(1).
+    /// Returns true if it was written as a whole number, without a point. O(1).
     #[must_use]
     pub fn is_written_whole(&self) -> bool {
         self.0.written == WrittenNumber::Whole
     }
 
-    /// What kind of number it is written as.
+    /// Returns the form in which the number was written.
     #[must_use]
     pub fn written(&self) -> WrittenNumber {
         self.0.written
     }
 
-    /// The same number, written so.
+    /// Returns the number with another written form.
     pub fn written_as(mut self, written: WrittenNumber) -> Expr {
         if self.0.written == written {
             return self;
@@ -53,7 +54,7 @@ impl Expr {
         }))
     }
 
-    /// The number times a factor that is exact, its digits worth that much more or less.
+    /// Returns the number times an exact factor, with the accuracy of its digits multiplied accordingly.
     pub fn scaled_as_written(&self, value: Expr, factor: f64) -> Expr {
         let written = match self.0.written {
             WrittenNumber::Decimal(digits) => WrittenNumber::Decimal(Digits {

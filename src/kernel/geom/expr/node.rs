@@ -6,17 +6,17 @@ use super::written::WrittenNumber;
 use num_rational::BigRational;
 use std::sync::Arc;
 
-/// An exact real number: rationals, square roots, cosines of rational angles; and pi to [`PI_DIGITS`](super::PI_DIGITS) digits.
-/// Clones share the tree.
+/// An exact real number: rationals, square roots, cosines of rational angles; and pi to [`PI_DIGITS`](super::PI_DIGITS)
+/// digits. Clones share the tree.
 #[derive(Clone)]
 pub struct Expr(pub(super) Arc<Node>);
 
 pub(super) struct Node {
     pub(super) kind: NodeKind,
     pub(super) enclosure: Enclosure,
-    /// Leaves of the tree as written out, saturating.
+    /// Number of leaves of the fully written tree, saturating.
     pub(super) size: u64,
-    /// How it was written, which no value depends on.
+    /// The written form, which does not affect the value.
     pub(super) written: WrittenNumber,
 }
 
@@ -40,7 +40,7 @@ pub(crate) enum NodeKind {
     Sqrt(Expr),
     /// The function of `k/n` turns, in lowest terms, `0 <= k < n`.
     Trig(Function, u64, u64),
-    /// π, which no number here is: its first digits stand for it, and the tree remembers that they do.
+    /// π, which has no exact value here. It is replaced by its first digits, and the tree records this.
     Pi,
 }
 

@@ -1,4 +1,4 @@
-//! Sums, differences, products and negatives, folded where they are rational.
+//! Sums, differences, products and negatives, folded if they are rational.
 
 use super::Expr;
 use super::node::NodeKind;

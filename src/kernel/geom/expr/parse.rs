@@ -1,4 +1,4 @@
-//! From text to an expression: a recursive descent with limits on size and depth.
+//! Parser of expressions: a recursive descent with limits on size and depth.
 
 use super::error::ExprError;
 use super::node::{Expr, Function, NodeKind};
@@ -9,21 +9,21 @@ use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use std::str::FromStr;
 
-/// The longest text [`Expr`] is read from, in bytes.
+/// Maximum length of a text that [`Expr`] is read from, in bytes.
 pub const MAX_TEXT: usize = 1000;
-/// The deepest nesting of parentheses and functions in a text.
+/// Maximum nesting depth of parentheses and functions in a text.
 pub const MAX_NESTING: usize = 64;
-/// The largest decimal exponent (`1e400`), either sign.
+/// Maximum decimal exponent (`1e400`), either sign.
 pub const MAX_EXPONENT: i64 = 400;
-/// The largest power (`x^64`), either sign.
+/// Maximum power (`x^64`), either sign.
 pub const MAX_POWER: i64 = 64;
-/// The largest denominator of an angle in turns; finer angles leave no primes of 61 bits to compute with.
+/// Maximum denominator of an angle in turns. Finer angles leave no primes of 61 bits to compute with.
 pub const MAX_ANGLE_DENOMINATOR: u64 = 1 << 44;
 
-/// What a word that is none of an expression's own stands for, where it stands for a number.
+/// Values of names: the number of a word that is not part of the expression syntax, if it has one.
 pub(crate) type Names<'n> = &'n mut dyn FnMut(&str) -> Option<Expr>;
 
-/// The words of expressions, which no number can have for a name.
+/// The words of expressions, which cannot be names of numbers.
 pub const WORDS: [&str; 7] = ["pi", "deg", "sqrt", "cos", "sin", "tan", "cot"];
 
 impl FromStr for Expr {
@@ -32,18 +32,17 @@ impl FromStr for Expr {
     /// Reads decimals, `+ - * /`, `^integer`, parentheses, `sqrt`, and `cos sin tan cot` of rational angles.
     ///
     /// # Errors
-    /// An [`ExprError`] naming the byte where the text is malformed, out of limits, or has no real value.
+    /// Returns an [`ExprError`] with the byte where the text is malformed, exceeds a limit, or has no real value.
     fn from_str(text: &str) -> Result<Expr, ExprError> {
         Expr::with_names(text, false, &mut |_| None)
     }
 }
 
 impl Expr {
-    /// Reads an expression in which words may be names of numbers, and `pi` one outside angles ([`Expr::pi`]):
-    /// `5/(2*pi)`.
+    /// Reads an expression in which words may be names of numbers, and `pi` may be a number outside angles ([`Expr::pi`]): `5/(2*pi)`.
     ///
     /// # Errors
-    /// As [`Expr::from_str`].
+    /// Returns an error in the same cases as [`Expr::from_str`].
     pub fn with_names(
         text: &str,
         pi_is_a_number: bool,
@@ -76,7 +75,7 @@ impl Expr {
             return Err(parser.unexpected("an operator or the end"));
         }
         let read = number(value, start)?;
-        // Short texts without powers are not written much longer.
+        // Short texts without powers do not become much longer when written.
         if !named && (text.len() > MAX_TEXT / 5 || text.contains(['e', 'E', '^'])) {
             match read.to_string().len() {
                 len if len > MAX_TEXT => return Err(ExprError::WrittenTooLong { len }),
@@ -87,7 +86,7 @@ impl Expr {
     }
 }
 
-/// What a part of the text stands for.
+/// The value of a part of the text.
 enum Value {
     Number(Expr),
     /// An angle in turns.
@@ -101,7 +100,8 @@ fn number(value: Value, at: usize) -> Result<Expr, ExprError> {
     }
 }
 
-/// Refuses what no double can hold, and fractions of such numbers: what is read must be readable where it is written again.
+/// Returns an error for numbers beyond the range of doubles, and for fractions of such numbers. A number that is read must be readable
+/// after it is written again.
 fn finite(e: Expr, at: usize) -> Result<Expr, ExprError> {
     let holds = |n: &BigInt| n.bits() < 1024 || n.to_f64().is_some_and(f64::is_finite);
     let rational = e.rational_ref();
@@ -131,7 +131,7 @@ struct Parser<'a, 'n> {
 }
 
 impl<'a> Parser<'a, '_> {
-    /// The next byte that is not white space.
+    /// Returns the next byte that is not white space.
     fn peek(&mut self) -> Option<u8> {
         while self.here().is_some_and(|b| b.is_ascii_whitespace()) {
             self.pos += 1;
@@ -276,7 +276,7 @@ impl<'a> Parser<'a, '_> {
             _ if n == 0 => Expr::from(1),
             _ if n == 1 => base,
             Some(r) => {
-                // Checked on the enclosure first: the exact power of a large number is the costly part.
+                // The enclosure is checked first, because the exact power of a large number is expensive.
                 finite(Expr::new(NodeKind::Pow(base.clone(), n)), at)?;
                 if bits(r).saturating_mul(n.unsigned_abs()) > MAX_BITS {
                     return Err(ExprError::TooManyDigits { at });
@@ -336,7 +336,7 @@ impl<'a> Parser<'a, '_> {
                 .is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_')
     }
 
-    /// Turns a rational into an angle where the suffix `deg` follows.
+    /// Converts a rational to an angle if the suffix `deg` follows.
     fn degrees(&mut self, e: Expr) -> Result<Value, ExprError> {
         if !self.word_is_deg() {
             return Ok(Value::Number(e));

@@ -5,12 +5,13 @@ use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::sync::LazyLock;
 
-/// Rationals wider than this stay unevaluated, so that repeated squaring cannot exhaust memory.
+/// Maximum size of an evaluated rational, in bits. Larger ones stay unevaluated, so that repeated squaring cannot
+/// exhaust memory.
 pub(super) const MAX_BITS: u64 = 1 << 14;
-/// The longest fraction of two whole numbers alone that is read: exact geometry of rounded files has long ones.
+/// Maximum length of a fraction of two whole numbers in a text. Exact geometry of rounded files has long ones.
 const MAX_FRACTION: usize = 4800;
 
-/// Decimals of π that stand for it, far more than any double has.
+/// Number of decimals used for π, far more than any double has.
 pub const PI_DIGITS: usize = 40;
 
 /// The first digits of π.
@@ -23,7 +24,7 @@ pub(super) fn bits(r: &BigRational) -> u64 {
     r.numer().bits() + r.denom().bits()
 }
 
-/// The root of a rational that is the square of a rational.
+/// Returns the root of a rational that is the square of a rational.
 pub(crate) fn rational_sqrt(r: &BigRational) -> Option<BigRational> {
     if r.is_negative() {
         return None;
@@ -32,7 +33,7 @@ pub(crate) fn rational_sqrt(r: &BigRational) -> Option<BigRational> {
     (&n * &n == *r.numer() && &d * &d == *r.denom()).then(|| BigRational::new(n, d))
 }
 
-/// `whole.fraction * 10^exponent` exactly; `None` unless both parts are digits.
+/// Returns `whole.fraction * 10^exponent` exactly, or `None` unless both parts are digits.
 pub(super) fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigRational> {
     let digits = BigInt::parse_bytes(format!("0{whole}{fraction}").as_bytes(), 10)?;
     let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
@@ -44,7 +45,7 @@ pub(super) fn decimal(whole: &str, fraction: &str, exponent: i64) -> Option<BigR
     })
 }
 
-/// A fraction of two whole numbers, and nothing else; `None` too where it is wider than rationals may be.
+/// Reads a fraction of two whole numbers and nothing else. Also returns `None` if it is wider than rationals may be.
 pub(super) fn fraction(text: &str) -> Option<BigRational> {
     let (sign, digits) = match text.strip_prefix('-') {
         Some(rest) => (-1, rest),
@@ -71,7 +72,7 @@ mod tests {
 
     #[test]
     fn long_fractions_are_read_again_and_endless_ones_refused() {
-        // Exact geometry of rounded files: both parts beyond what doubles hold.
+        // Exact geometry of rounded files has both parts beyond the range of doubles.
         let long = format!("-{}/{}7", "12345".repeat(140), "98765".repeat(141));
         let e: Expr = long.parse().expect("a fraction");
         let near = -12345.0 / 98765.0 * 1e-6;

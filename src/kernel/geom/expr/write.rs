@@ -1,4 +1,4 @@
-//! From an expression to text that reads back as the same number.
+//! Conversion of an expression to text that reads back as the same number.
 
 use super::Expr;
 use super::node::{Function, NodeKind};
@@ -8,7 +8,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed};
 use std::fmt;
 
-/// Trees with more leaves than this are displayed as decimals: shared nodes make the full text exponentially long.
+/// Number of leaves above which trees are displayed as decimals. Shared nodes make the full text exponentially long.
 const MAX_SHOWN: u64 = 4096;
 
 // Binding strengths in the written form.
@@ -17,7 +17,7 @@ const PRODUCT: u8 = 2;
 const UNARY: u8 = 3;
 const ATOM: u8 = 5;
 
-/// A rational as text, a terminating decimal where that is short, with its binding strength.
+/// Returns a rational as text with its binding strength. A short terminating decimal is preferred.
 fn show_rational(r: &BigRational) -> (String, u8) {
     let sign = if r.is_negative() { "-" } else { "" };
     let strength = if r.is_negative() { UNARY } else { ATOM };
@@ -49,23 +49,23 @@ fn show_rational(r: &BigRational) -> (String, u8) {
     (format!("{sign}{whole}.{fraction}"), strength)
 }
 
-/// What is still to be written.
+/// The remaining parts to write.
 enum Task<'a> {
     Text(&'static str),
     Power(i64),
-    /// A tree, in brackets where it binds less than this.
+    /// A tree, in parentheses if it binds less than this.
     Tree(&'a Expr, u8),
 }
 
 /// A node in pieces.
 enum Pieces<'a> {
-    /// One without parts.
+    /// A piece without parts.
     Whole(String),
-    /// One with parts, in reverse: the stack of tasks is written from its end.
+    /// A piece with parts, in reverse order because the stack of tasks is processed from its end.
     Parts(Vec<Task<'a>>),
 }
 
-/// The pieces of a node, with its binding strength.
+/// Returns the pieces of a node, with its binding strength.
 fn pieces(kind: &NodeKind) -> (u8, Pieces<'_>) {
     use Task::{Power, Text, Tree};
     let (strength, parts) = match kind {

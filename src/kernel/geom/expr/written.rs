@@ -1,46 +1,46 @@
-//! How a number was written: what its last digit says of how well it is known.
+//! The written form of a number, whose last digit determines its accuracy.
 
-/// How a number was written; arithmetic makes numbers that were not.
+/// The written form of a number. Results of arithmetic have none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum WrittenNumber {
-    /// As an expression, or not at all: exact.
+    /// Written as an expression, or not at all: exact.
     #[default]
     No,
-    /// As a whole number, without a point.
+    /// Written as a whole number, without a point.
     Whole,
-    /// As a decimal.
+    /// Written as a decimal.
     Decimal(Digits),
-    /// However it was: somebody says that it is within so much of what is meant, or exact where that is 0.
+    /// Written in any form, with a stated deviation from the intended value, or exact if that is 0.
     Stated(f64),
 }
 
 /// The digits of a decimal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Digits {
-    /// Half a unit of the last one, times what the decimal was multiplied by.
+    /// Half a unit of the last digit, times the factor that the decimal was multiplied by.
     pub half: f64,
-    /// Digits after the point, less the power of ten; negative where the last digit is worth more than one.
+    /// Digits after the point, less the power of ten; negative if the last digit is worth more than one.
     pub places: i32,
-    /// Significant digits, trailing zeros among them; 0 of zero.
+    /// Significant digits, including trailing zeros; 0 for zero.
     pub significant: usize,
-    /// What its last digits are.
+    /// Kind of its last digits.
     pub end: End,
 }
 
 /// The end of a decimal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// A digit that is not 0.
+    /// A nonzero digit.
     Digit,
-    /// A 0 that only a writer of all digits writes: 0.50, 12.00.
+    /// A 0 that is written only if all digits are written: 0.50, 12.00.
     Zero,
-    /// The `.0` that programs put behind whole numbers.
+    /// The `.0` that programs append to whole numbers.
     Float,
 }
 
-/// Half of one unit of so many places.
+/// Returns half of one unit at this number of places.
 pub fn half_of(places: i32) -> f64 {
-    // Divided, the nearest double of 0.000005; multiplied, one beside it.
+    // Division gives the nearest double of 0.000005; multiplication gives a neighbouring one.
     match places {
         ..0 => 0.5 * 10f64.powi(places.saturating_neg().min(400)),
         _ => 0.5 / 10f64.powi(places.min(320)),
@@ -48,12 +48,12 @@ pub fn half_of(places: i32) -> f64 {
 }
 
 impl Digits {
-    /// What the decimal was multiplied by.
+    /// Returns the factor that the decimal was multiplied by.
     pub fn factor(&self) -> f64 {
         self.half / half_of(self.places)
     }
 
-    /// Of `whole.fraction * 10^exponent`; `None` for a whole number without a point.
+    /// Returns the digits of `whole.fraction * 10^exponent`, or `None` for a whole number without a point.
     pub(super) fn of(whole: &str, fraction: &str, exponent: i64, point: bool) -> Option<Digits> {
         if !point && exponent >= 0 {
             return None;

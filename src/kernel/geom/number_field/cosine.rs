@@ -7,15 +7,15 @@ use num_traits::{One, Zero};
 use crate::geom::exact::radical::factor;
 use crate::linalg::number_ring::Element;
 
-/// The minimal polynomial of 2 cos(2π/n) for n > 2, lowest coefficient first, the leading 1 left out.
+/// Returns the minimal polynomial of 2 cos(2π/n) for n > 2, lowest coefficient first, without the leading 1.
 ///
-/// With h = φ(n)/2, the cyclotomic polynomial divided by x^h is a sum of terms x^k + x^-k, which are polynomials in
-/// x + 1/x.
+/// With h = φ(n)/2, the cyclotomic polynomial divided by x^h is a sum of terms x^k + x^-k, which are polynomials in x +
+/// 1/x.
 pub(super) fn cosine_relation(n: u64) -> Vec<Element> {
     let cyclotomic = cyclotomic(n);
     let h = cyclotomic.len() / 2;
     let mut sum = vec![BigInt::zero(); h + 1];
-    // x^k + x^-k for k and k + 1 as polynomials in t = x + 1/x; half of the first, for the middle term is single.
+    // x^k + x^-k for k and k + 1 as polynomials in t = x + 1/x; half of the first, because the middle term is single.
     let mut now = vec![BigInt::one()];
     let mut next = vec![BigInt::zero(), BigInt::one()];
     for k in 0..=h {
@@ -38,7 +38,7 @@ pub(super) fn cosine_relation(n: u64) -> Vec<Element> {
         .collect()
 }
 
-/// The cyclotomic polynomial by Möbius inversion: the product of (x^d - 1)^μ(n/d) over the divisors d.
+/// Returns the cyclotomic polynomial by Möbius inversion: the product of (x^d - 1)^μ(n/d) over the divisors d.
 fn cyclotomic(n: u64) -> Vec<BigInt> {
     let primes: Vec<u64> = factor(n).into_iter().map(|(q, _)| q).collect();
     let (mut over, mut under) = (Vec::new(), Vec::new());

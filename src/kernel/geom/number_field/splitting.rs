@@ -6,10 +6,10 @@ use super::NumberField;
 use crate::geom::exact::radical::factor;
 use crate::linalg::modp::{Field, Residue, is_prime};
 
-/// Candidates for primes tried before the search is given up.
+/// Maximum number of candidates in the search for primes.
 const MAX_CANDIDATES: u64 = 1 << 20;
 
-/// A field with the images of its generators in a prime field, under every homomorphism there is.
+/// A field with the images of its generators in a prime field, under every homomorphism.
 #[derive(Debug, Clone)]
 pub(crate) struct Splitting {
     /// The prime field.
@@ -19,8 +19,8 @@ pub(crate) struct Splitting {
 }
 
 impl NumberField {
-    /// Primes near 2^61 that split the field, with all homomorphisms. A search of 2^k primes each, for k radicands whose
-    /// roots reciprocity does not provide.
+    /// Returns primes near 2^61 that split the field, with all homomorphisms. Each costs a search of 2^k primes, for k
+    /// radicands whose roots reciprocity does not provide.
     pub(crate) fn splittings(&self) -> impl Iterator<Item = Splitting> + '_ {
         primes(self.modulus).filter_map(|field| self.split(field))
     }
@@ -56,9 +56,9 @@ impl NumberField {
         })
     }
 
-    /// For each generator that is a root, a prime with images of the generators before it under which the radicand is
-    /// no square: the proof that the field is one. `None` where the search was given up. A search of 2^k primes for k
-    /// roots.
+    /// Returns, for each generator that is a root, a prime with images of the generators before it under which the
+    /// radicand is not a square. This proves that the field is one. Returns `None` if the search was abandoned. A
+    /// search of 2^k primes for k roots.
     #[must_use]
     pub fn witnesses(&self) -> Option<Vec<(u64, Vec<u64>)>> {
         let first = self.first_root();
@@ -91,7 +91,7 @@ impl NumberField {
         found.into_iter().collect()
     }
 
-    /// The image of what stands under the root of a generator.
+    /// Returns the image of the number under the root of a generator.
     fn radicand(&self, generator: usize, field: Field, images: &[Residue]) -> Option<Residue> {
         let constant = self.ring.relation(generator).first()?;
         let monomials = self.ring.monomials(field, images);
@@ -110,7 +110,7 @@ impl NumberField {
     }
 }
 
-/// The fields of primes 1 modulo a number, from 2^61 on.
+/// Returns the fields of primes 1 modulo a number, from 2^61 on.
 fn primes(modulus: u64) -> impl Iterator<Item = Field> {
     let start = (1u64 << 61) / modulus + 1;
     let end = ((1u64 << 62) - 1) / modulus;
