@@ -1,5 +1,5 @@
-//! Linear algebra over a prime field: exact zero tests at machine speed; and exact arithmetic in number rings, with rational numbers as
-//! whole ones over a denominator that they have in common.
+//! Linear algebra over a prime field, with exact zero tests at machine speed. Also exact arithmetic in number rings,
+//! with rational numbers as integers over a common denominator.
 
 pub mod echelon;
 pub(crate) mod exterior;
@@ -11,21 +11,22 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::One;
 
-/// The least denominator that numbers have in common. O(length) divisions, and a greatest common divisor for each that does not divide
-/// what those before it have.
+/// Returns the least common denominator of some numbers. O(length) divisions, and one greatest common divisor for each
+/// denominator that does not divide the previous result.
 #[must_use]
 pub fn common_denominator<'a>(all: impl IntoIterator<Item = &'a BigRational>) -> BigInt {
     let all = all.into_iter();
     all.fold(BigInt::one(), |m, x| common_multiple(m, x.denom()))
 }
 
-/// The least common multiple of two positive numbers. A division tells most often, and costs much less than a divisor.
+/// Returns the least common multiple of two positive numbers. A division mostly decides, and costs much less than a
+/// greatest common divisor.
 #[must_use]
 pub fn common_multiple(m: BigInt, n: &BigInt) -> BigInt {
     if m.is_multiple_of(n) { m } else { m.lcm(n) }
 }
 
-/// How often a denominator that a number's own divides goes into the number. O(length).
+/// Returns a number times a denominator that its own denominator divides. O(length).
 #[must_use]
 pub fn whole(x: &BigRational, denominator: &BigInt) -> BigInt {
     if x.denom() == denominator {

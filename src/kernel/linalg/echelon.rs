@@ -10,7 +10,7 @@ pub struct Echelon {
 }
 
 impl Echelon {
-    /// The zero span.
+    /// Creates the zero span.
     #[must_use]
     pub fn new(field: Field) -> Self {
         Echelon {
@@ -19,7 +19,7 @@ impl Echelon {
         }
     }
 
-    /// The span of some vectors.
+    /// Creates the span of some vectors.
     #[must_use]
     pub fn of<V: AsRef<[Residue]>>(field: Field, vectors: impl IntoIterator<Item = V>) -> Self {
         let mut span = Echelon::new(field);
@@ -29,13 +29,13 @@ impl Echelon {
         span
     }
 
-    /// Dimension of the span.
+    /// Returns the dimension of the span.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.rows.len()
     }
 
-    /// The places of the pivots, ascending: coordinates that tell all others of a vector in the span.
+    /// Returns the indices of the pivots, ascending: coordinates that determine all others of a vector in the span.
     #[must_use]
     pub fn pivots(&self) -> Vec<usize> {
         self.rows.iter().map(|(pivot, _)| *pivot).collect()
@@ -45,12 +45,12 @@ impl Echelon {
     pub fn reduce(&self, v: &mut [Residue]) {
         let f = self.field;
         for (pivot, row) in &self.rows {
-            // Rows are zero before their pivot, and normed to one there.
+            // Rows are zero before their pivot, which is scaled to one.
             f.subtract_multiple(&mut v[*pivot..], &row[*pivot..]);
         }
     }
 
-    /// Adds a vector to the span; true where it was independent. O(rank · length).
+    /// Adds a vector to the span. Returns true if it was independent. O(rank · length).
     pub fn insert(&mut self, v: &[Residue]) -> bool {
         let f = self.field;
         let mut v = v.to_vec();
@@ -65,7 +65,7 @@ impl Echelon {
         true
     }
 
-    /// Whether a vector lies in the span.
+    /// Returns true if a vector lies in the span.
     #[must_use]
     pub fn contains(&self, v: &[Residue]) -> bool {
         let mut v = v.to_vec();
@@ -73,7 +73,7 @@ impl Echelon {
         v.iter().all(|&x| x == 0)
     }
 
-    /// The reduced row echelon form: a canonical basis of the span, pivots ascending.
+    /// Returns the reduced row echelon form: a canonical basis of the span, pivots ascending.
     #[must_use]
     pub fn reduced(&self) -> Vec<Vec<Residue>> {
         let f = self.field;
@@ -88,7 +88,7 @@ impl Echelon {
     }
 }
 
-/// Dimension of the span of some vectors.
+/// Returns the dimension of the span of some vectors.
 #[must_use]
 pub fn rank<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) -> usize {
     Echelon::of(field, vectors).rank()
@@ -97,16 +97,18 @@ pub fn rank<'a>(field: Field, vectors: impl IntoIterator<Item = &'a [Residue]>) 
 /// A vector without its zeros.
 type Sparse = Vec<(usize, Residue)>;
 
-/// A basis of the linear relations among some vectors of equal length: the kernel of the matrix that has them as its
-/// columns, in reduced row echelon form, so that each relation has a vector of its own.
+/// Returns a basis of the linear relations between some vectors of equal length. This is the kernel of the matrix with
+/// these columns, in reduced row echelon form, so that each relation has its own vector.
 ///
-/// The vectors are inserted from the last to the first, each with a record of what was subtracted from it. One that
-/// comes to nothing is a relation, and as only independent vectors are ever subtracted, it holds no other vector that
-/// came to nothing: the relations are in reduced form as they are found, and no second elimination is needed.
+/// The vectors are inserted from the last to the first, each with a record of the vectors subtracted from it. A vector
+/// that reduces to zero gives a relation. Only independent vectors are ever subtracted, so this relation involves no
+/// other vector that reduced to zero. The relations are therefore found in reduced form, and no second elimination is
+/// needed.
 ///
 /// # Complexity
-/// O(n · width) to look for pivots, and one field operation for each nonzero entry of each subtracted vector and its
-/// record: near O(n · width) where a vector meets few others, O(n · rank · (width + rank)) at worst, for n vectors.
+/// O(n · width) to find pivots for n vectors, and one field operation for each nonzero entry of each subtracted vector
+/// and its record. This is close to O(n · width) if a vector meets few others, and O(n · rank · (width + rank)) at
+/// worst.
 #[must_use]
 pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     let n = vectors.len();
@@ -123,7 +125,7 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
             v[i] = field.sub(v[i], field.mul(a, y));
         }
     };
-    // Per coordinate, the vector with its pivot there and the record of how it is made up, both without zeros.
+    // For each coordinate, the vector with its pivot there and the record of its combination, both without zeros.
     let mut pivots: Vec<Option<[Sparse; 2]>> = vec![None; width];
     let mut found = Vec::new();
     for (i, vector) in vectors.iter().enumerate().rev() {
@@ -163,7 +165,8 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     found
 }
 
-/// The sum of some vectors of one length, each times its factor; nothing where there are no vectors.
+/// Returns the linear combination of some vectors of equal length with the given factors. Empty if there are no
+/// vectors.
 #[must_use]
 pub fn combination(field: Field, vectors: &[Vec<Residue>], factors: &[Residue]) -> Vec<Residue> {
     let mut out = vec![0; vectors.first().map_or(0, Vec::len)];
@@ -175,7 +178,7 @@ pub fn combination(field: Field, vectors: &[Vec<Residue>], factors: &[Residue]) 
     out
 }
 
-/// The transpose of a list of equally long vectors.
+/// Returns the transpose of a list of equally long vectors.
 #[must_use]
 pub fn transpose(vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     let width = vectors.first().map_or(0, Vec::len);
@@ -190,7 +193,7 @@ mod tests {
     use crate::linalg::modp::is_prime;
     use proptest::prelude::*;
 
-    /// The slow twin: vectors tagged with unit vectors, eliminated densely, then the kernel reduced.
+    /// Reference implementation: eliminates vectors tagged with unit vectors densely, then reduces the kernel.
     fn by_tags(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
         let width = vectors.first().map_or(0, Vec::len);
         let mut e = Echelon::new(field);

@@ -1,46 +1,51 @@
-//! Spaces by their minors: products of vectors in the exterior algebra.
+//! Spaces represented by their minors: products of vectors in the exterior algebra.
 //!
-//! Two spaces whose dimensions add up to that of the whole span it where the product of both is not nothing, and that is one sum of
-//! products of their coordinates: little where many spaces meet many others.
+//! Two spaces whose dimensions add up to that of the whole space span it if and only if the product of both is nonzero.
+//! This is one sum of products of their coordinates, which is cheap if many spaces meet many others.
 //!
 //! # Sources
-//! Grassmann, "Die Ausdehnungslehre" (1862); Plücker coordinates: Hodge & Pedoe, Methods of Algebraic Geometry I, chapter VII.
+//! Grassmann, "Die Ausdehnungslehre" (1862); Plücker coordinates: Hodge & Pedoe, Methods of Algebraic Geometry I,
+//! chapter VII.
 
 use crate::linalg::modp::{Field, Residue};
 
-/// Products of vectors of so many numbers.
+/// Products of vectors of a fixed length.
 #[derive(Debug)]
 pub(crate) struct Exterior {
     field: Field,
     width: usize,
-    /// Of each set of so many coordinates, for each of these from the last on: the place of the others, and it.
+    /// For each set of a given number of coordinates, and each member from the last on: the index of the other members,
+    /// and the member.
     faces: Vec<Vec<[usize; 2]>>,
-    /// For each set of so many coordinates: the place of the others, and whether the sign changes where these come first.
+    /// For each set of a given number of coordinates: the index of its complement, and whether the sign changes if the
+    /// complement comes first.
     others: Vec<Vec<(usize, bool)>>,
 }
 
-/// A product of some vectors, all minors of theirs by the set of their coordinates, in memory that the next one uses again.
+/// A product of some vectors: all their minors by sets of coordinates, in memory that the next product reuses.
 #[derive(Debug, Default)]
 pub(crate) struct Product {
     minors: Vec<Residue>,
-    /// Those of one vector less.
+    /// The minors of one vector fewer.
     before: Vec<Residue>,
-    /// The numbers of a vector, with their negatives.
+    /// The entries of a vector, with their negatives.
     signed: Vec<[Residue; 2]>,
 }
 
 impl Product {
-    /// The minors.
+    /// Returns the minors.
     pub(crate) fn minors(&self) -> &[Residue] {
         &self.minors
     }
 }
 
 impl Exterior {
+    /// Creates the tables for vectors of `width` numbers.
+    ///
     /// # Complexity
     /// O(n·2^n) for vectors of n numbers.
     pub(crate) fn new(field: Field, width: usize) -> Exterior {
-        // The sets of so many coordinates as bits, ascending, and the place of each among those of its size.
+        // The sets of each size as bits, ascending, and the index of each among those of its size.
         let mut sets = vec![Vec::new(); width + 1];
         let place = |set: usize| {
             let alike: &mut Vec<usize> = &mut sets[set.count_ones() as usize];
@@ -56,7 +61,7 @@ impl Exterior {
         };
         let others = |&set: &usize| {
             let rest = ((1 << width) - 1) & !set;
-            // Each coordinate of the set goes past the smaller ones of the rest.
+            // Each coordinate of the set passes the smaller ones of the rest.
             let passed = members(set).map(|i| (rest & ((1 << i) - 1)).count_ones());
             (places[rest], !passed.sum::<u32>().is_multiple_of(2))
         };
@@ -71,7 +76,7 @@ impl Exterior {
         }
     }
 
-    /// The product of some vectors; nothing where there are more than numbers of each.
+    /// Computes the product of some vectors. It is zero if there are more vectors than entries of each.
     ///
     /// # Complexity
     /// O(n·b) field operations for n vectors and b minors.
@@ -103,13 +108,13 @@ impl Exterior {
         }
     }
 
-    /// Whether the vectors of a product, and those of a [complement](Self::complement), are independent.
+    /// Returns true if the vectors of a product, and those of a [complement](Self::complement), are independent.
     pub(crate) fn whole(&self, product: &[Residue], complement: &[Residue]) -> bool {
         self.field.dot(product, complement) != 0
     }
 
-    /// The minors of so many vectors in such an order, and with such signs, that their sum of products with those of the others that a
-    /// whole needs is the determinant of all.
+    /// Returns the minors of `vectors` vectors, ordered and signed so that their sum of products with the minors of the
+    /// remaining vectors is the determinant of all.
     pub(crate) fn complement(
         &self,
         product: &Product,
@@ -150,7 +155,7 @@ mod tests {
             let rows = |of: &[Vec<Residue>]| rank(f, of.iter().map(Vec::as_slice));
             let exterior = Exterior::new(f, width);
             let [one, other] = [&all[..first], &all[first..]];
-            // In memory that another product has left.
+            // In memory used by another product before.
             let mut of = Product::default();
             let mut product = |vectors: &[Vec<Residue>]| {
                 exterior.product(vectors.iter().map(Vec::as_slice), &mut of);

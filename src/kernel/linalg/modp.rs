@@ -1,9 +1,10 @@
 //! Arithmetic modulo an odd prime below 2^62, in Montgomery form.
 //!
-//! Residues are plain `u64` in Montgomery form (`x·2^64 mod p`), which is a canonical representation: two residues
-//! are equal exactly when their words are. Sixty-odd bits rather than thirty make a false zero in a whole search
-//! (some 10^7 zero tests) less likely than 10^-11, as long as the numbers do not depend on the prime. A coordinate that is a
-//! multiple of the prime is a false zero for certain, so primes are chosen by a hash of the coordinates (`geom::exact`).
+//! Residues are plain `u64` in Montgomery form (`x·2^64 mod p`), which is a canonical representation: two residues are
+//! equal if and only if their words are equal. With sixty-odd bits rather than thirty, a false zero in a whole search
+//! (about 10^7 zero tests) is less likely than 10^-11. This holds as long as the numbers do not depend on the prime. A
+//! coordinate that is a multiple of the prime is certainly a false zero, so primes are chosen by a hash of the
+//! coordinates (`geom::exact`).
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -26,10 +27,10 @@ pub struct Field {
 }
 
 impl Field {
-    /// The field of `p` elements.
+    /// Creates the field of `p` elements.
     ///
     /// # Panics
-    /// If `p` is even, or not below 2^62. That `p` is prime is the caller's promise; see [`is_prime`].
+    /// Panics if `p` is even, or not below 2^62. The caller has to ensure that `p` is prime; see [`is_prime`].
     #[must_use]
     pub fn new(p: u64) -> Self {
         assert!(
@@ -51,25 +52,25 @@ impl Field {
         }
     }
 
-    /// The modulus.
+    /// Returns the modulus.
     #[must_use]
     pub fn modulus(self) -> u64 {
         self.p
     }
 
-    /// The residue of 0.
+    /// Returns the residue of 0.
     #[must_use]
     pub const fn zero(self) -> Residue {
         0
     }
 
-    /// The residue of 1.
+    /// Returns the residue of 1.
     #[must_use]
     pub const fn one(self) -> Residue {
         self.one
     }
 
-    /// Product of two residues.
+    /// Returns the product of two residues.
     #[inline(always)]
     #[must_use]
     pub fn mul(self, a: Residue, b: Residue) -> Residue {
@@ -77,7 +78,7 @@ impl Field {
         self.reduced(t)
     }
 
-    /// `a·x - b·y` with one reduction.
+    /// Returns `a·x - b·y` with one reduction.
     #[inline(always)]
     #[must_use]
     pub fn cross(self, a: Residue, x: Residue, b: Residue, y: Residue) -> Residue {
@@ -86,11 +87,11 @@ impl Field {
         self.reduced(t)
     }
 
-    /// Σ a·b with one reduction.
+    /// Returns Σ a·b with one reduction.
     #[inline]
     #[must_use]
     pub fn sum_of_products(self, pairs: impl IntoIterator<Item = (Residue, Residue)>) -> Residue {
-        // Kept below p·2^64, to which a product, below p², is added: below 2^126 and 2^124.
+        // The sum is kept below p·2^64, and a product below p² is added: below 2^126 and 2^124.
         let least = u128::from(self.p) << 64;
         let t = pairs.into_iter().fold(0, |t: u128, (a, b)| {
             let t = t + u128::from(a) * u128::from(b);
@@ -99,11 +100,11 @@ impl Field {
         self.reduced(t)
     }
 
-    /// Σ x·y with one reduction, over as many numbers as both have.
+    /// Returns Σ x·y with one reduction, over the entries that both have.
     #[inline(always)]
     #[must_use]
     pub fn dot(self, x: &[Residue], y: &[Residue]) -> Residue {
-        // Four products are below 4p², which is below p·2^64: what the sum is kept below. Both together are below 2^128.
+        // Four products are below 4p², which is below p·2^64, the limit of the sum. Both together are below 2^128.
         let least = u128::from(self.p) << 64;
         let below = |t: u128| if t >= least { t - least } else { t };
         let product = |(&a, &b): (&Residue, &Residue)| u128::from(a) * u128::from(b);
@@ -119,7 +120,7 @@ impl Field {
         self.reduced(t)
     }
 
-    /// A sum of products below p·2^64, divided by 2^64.
+    /// Reduces a sum of products below p·2^64, divided by 2^64.
     #[inline(always)]
     fn reduced(self, t: u128) -> Residue {
         let m = (t as u64).wrapping_mul(self.neg_inv);
@@ -127,7 +128,7 @@ impl Field {
         if u >= self.p { u - self.p } else { u }
     }
 
-    /// Sum of two residues.
+    /// Returns the sum of two residues.
     #[inline(always)]
     #[must_use]
     pub fn add(self, a: Residue, b: Residue) -> Residue {
@@ -135,20 +136,20 @@ impl Field {
         if s >= self.p { s - self.p } else { s }
     }
 
-    /// Difference of two residues.
+    /// Returns the difference of two residues.
     #[inline(always)]
     #[must_use]
     pub fn sub(self, a: Residue, b: Residue) -> Residue {
         if a >= b { a - b } else { a + self.p - b }
     }
 
-    /// `x -= x[0]·y`, for `y[0] = 1`: clears the first entry of `x`.
+    /// Computes `x -= x[0]·y`, for `y[0] = 1`, which clears the first entry of `x`.
     #[inline]
     pub fn subtract_multiple(self, x: &mut [Residue], y: &[Residue]) {
         let a = x[0];
         if a != 0 {
             for (x, &y) in x.iter_mut().zip(y) {
-                // Rows are sparse; a product costs more than the test.
+                // Rows are sparse, and a product costs more than the test.
                 if y != 0 {
                     *x = self.sub(*x, self.mul(a, y));
                 }
@@ -156,7 +157,7 @@ impl Field {
         }
     }
 
-    /// `x += y` or `x -= y`.
+    /// Computes `x += y` or `x -= y`.
     #[inline]
     pub fn accumulate(self, x: &mut [Residue], y: &[Residue], plus: bool) {
         for (x, &y) in x.iter_mut().zip(y) {
@@ -168,14 +169,14 @@ impl Field {
         }
     }
 
-    /// The negative of a residue.
+    /// Returns the negative of a residue.
     #[inline(always)]
     #[must_use]
     pub fn neg(self, a: Residue) -> Residue {
         if a == 0 { 0 } else { self.p - a }
     }
 
-    /// `a` to the power `e`, in O(log e).
+    /// Returns `a` to the power `e`, in O(log e).
     #[must_use]
     pub fn pow(self, a: Residue, mut e: u64) -> Residue {
         let (mut base, mut acc) = (a, self.one);
@@ -189,19 +190,19 @@ impl Field {
         acc
     }
 
-    /// The inverse of a nonzero residue.
+    /// Returns the inverse of a nonzero residue.
     ///
     /// # Panics
-    /// If `a` is zero.
+    /// Panics if `a` is zero.
     #[must_use]
     pub fn inv(self, a: Residue) -> Residue {
         assert!(a != 0, "zero has no inverse");
-        // Extended Euclid on plain integers is about three times faster than Fermat's power, and more where they are small. No factor
-        // exceeds p in size.
+        // Extended Euclid on plain integers is about three times faster than Fermat's power, and even faster for small
+        // numbers. No factor exceeds p in size.
         let (mut r0, mut r1) = (self.p, self.to_u64(a));
         let (mut t0, mut t1) = (0i64, 1i64);
         while r1 != 0 {
-            // Two quotients of three are below four, for which subtracting takes less than a division.
+            // Two quotients in three are below four, for which subtracting takes less time than a division.
             let (mut r, mut t) = (r0 - r1, t0 - t1);
             for _ in 0..2 {
                 if r >= r1 {
@@ -222,7 +223,7 @@ impl Field {
         self.mul(t.cast_unsigned(), self.r2)
     }
 
-    /// The residue of a small integer.
+    /// Returns the residue of a small integer.
     #[must_use]
     pub fn from_i64(self, x: i64) -> Residue {
         let m = x.unsigned_abs() % self.p;
@@ -230,7 +231,7 @@ impl Field {
         if x < 0 { self.neg(r) } else { r }
     }
 
-    /// The residue of an integer of any size.
+    /// Returns the residue of an integer of any size.
     #[must_use]
     pub fn from_bigint(self, x: &BigInt) -> Residue {
         if let Some(small) = x.to_i64() {
@@ -243,7 +244,7 @@ impl Field {
         self.mul(m, self.r2)
     }
 
-    /// The residue of a fraction, or `None` when `p` divides its denominator.
+    /// Returns the residue of a fraction, or `None` if `p` divides its denominator.
     #[must_use]
     pub fn from_rational(self, x: &BigRational) -> Option<Residue> {
         if x.is_integer() {
@@ -253,13 +254,13 @@ impl Field {
         (d != 0).then(|| self.mul(self.from_bigint(x.numer()), self.inv(d)))
     }
 
-    /// The plain integer below `p` behind a residue.
+    /// Returns the plain integer below `p` of a residue.
     #[must_use]
     pub fn to_u64(self, a: Residue) -> u64 {
         self.mul(a, 1)
     }
 
-    /// A square root of `a`, or `None` where `a` is not a square (Tonelli-Shanks; the smaller plain root).
+    /// Returns a square root of `a`, or `None` if `a` is not a square (Tonelli-Shanks; the smaller plain root).
     #[must_use]
     pub fn sqrt(self, a: Residue) -> Option<Residue> {
         if a == 0 {
@@ -303,7 +304,7 @@ impl Field {
     }
 }
 
-/// Whether `n` is prime: Miller-Rabin with the twelve bases that decide every 64-bit number.
+/// Returns true if `n` is prime: Miller-Rabin with the twelve bases that decide every 64-bit number.
 ///
 /// # Sources
 /// Sorenson & Webster, "Strong pseudoprimes to twelve prime bases", Math. Comp. 86 (2017).
@@ -367,7 +368,7 @@ mod tests {
                 .chain(half - 500..half + 500)
                 .chain(f.modulus() - 500..f.modulus())
             {
-                // As they stand and as residues: each is a residue of some integer.
+                // Unchanged and as residues: each is a residue of some integer.
                 for x in [x, f.mul(x, f.r2)] {
                     assert_eq!(f.mul(x, f.inv(x)), f.one(), "{x} modulo {}", f.modulus());
                 }
@@ -396,7 +397,7 @@ mod tests {
             prop_assert_eq!(f.mul(r, r), s);
         }
 
-        /// Also where all are as large as can be, in the largest field.
+        /// Includes the largest possible numbers in the largest field.
         #[test]
         fn sums_of_products_are_those_taken_one_by_one(
             pairs in prop::collection::vec((any::<u64>(), any::<u64>(), any::<bool>()), 0..60),

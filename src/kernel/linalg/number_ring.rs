@@ -1,10 +1,11 @@
 //! Exact arithmetic in rings Q[x_1, ..., x_m] / (relations), a tower of simple extensions of the rationals.
 //!
-//! Relation i is a monic polynomial in x_i whose coefficients are integral combinations of the monomials in the
-//! generators before it. The monomials with every exponent below the degree of its relation are a basis over Q, and
-//! products of integral combinations are integral: multiplication is done on integers, over common denominators. Basis
-//! elements are numbered with x_1 running fastest: the ring of the first few generators is then a prefix, and an element
-//! is kept as its coordinates without trailing zeros. Rational numbers have one coordinate at most.
+//! Relation i is a monic polynomial in x_i whose coefficients are integral combinations of the monomials in the generators before it. The
+//! monomials with every exponent below the degree of its relation are a basis over Q. Products of integral combinations are integral, so
+//! multiplication is done on integers, over common denominators.
+//!
+//! Basis elements are numbered with x_1 running fastest. The ring of the first few generators is then a prefix, and an element is stored
+//! as its coordinates without trailing zeros. Rational numbers have at most one coordinate.
 //!
 //! # Sources
 //! Cohen, "A Course in Computational Algebraic Number Theory", ch. 4 (elements as polynomials).
@@ -22,9 +23,9 @@ pub use element::Element;
 /// One generator: its relation `x^n + c[n-1] x^(n-1) + ... + c[0] = 0`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Generator {
-    /// Coefficients, lowest first, the leading 1 left out.
+    /// Coefficients, lowest first, without the leading 1.
     relation: Vec<Element>,
-    /// The same as integers.
+    /// The coefficients as integers.
     integers: Vec<Vec<BigInt>>,
     /// Dimension over Q of the ring of the generators before this one.
     width: usize,
@@ -37,15 +38,16 @@ pub struct NumberRing {
 }
 
 impl NumberRing {
-    /// The rational numbers. O(1).
+    /// Creates the ring of rational numbers. O(1).
     #[must_use]
     pub fn rationals() -> NumberRing {
         NumberRing::default()
     }
 
-    /// The ring with one more generator, or `None` where the relation has no coefficients, one that is not integral or
-    /// lies outside the ring so far, or a dimension beyond `usize`. `relation` lists the coefficients, lowest first, the
-    /// leading 1 left out. O(length).
+    /// Returns the ring with one more generator. `relation` lists the coefficients without the leading 1, lowest first. O(length).
+    ///
+    /// Returns `None` if the relation has no coefficients, if a coefficient is not integral or lies outside the ring so far, or if the
+    /// dimension exceeds `usize`.
     #[must_use]
     pub fn adjoin(mut self, relation: Vec<Element>) -> Option<NumberRing> {
         let width = self.dimension();
@@ -63,31 +65,31 @@ impl NumberRing {
         Some(self)
     }
 
-    /// Dimension over Q, the product of the degrees. O(1).
+    /// Returns the dimension over Q, the product of the degrees. O(1).
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.steps.last().map_or(1, |s| s.width * s.relation.len())
     }
 
-    /// Number of generators. O(1).
+    /// Returns the number of generators. O(1).
     #[must_use]
     pub fn generators(&self) -> usize {
         self.steps.len()
     }
 
-    /// The relation of a generator, as in [`NumberRing::adjoin`]. O(1).
+    /// Returns the relation of a generator, as in [`NumberRing::adjoin`]. O(1).
     ///
     /// # Panics
-    /// Where there is no such generator.
+    /// Panics if there is no such generator.
     #[must_use]
     pub fn relation(&self, generator: usize) -> &[Element] {
         &self.steps[generator].relation
     }
 
-    /// A generator as an element. O(dimension).
+    /// Returns a generator as an element. O(dimension).
     ///
     /// # Panics
-    /// Where there is no such generator.
+    /// Panics if there is no such generator.
     #[must_use]
     pub fn generator(&self, generator: usize) -> Element {
         let step = &self.steps[generator];
@@ -99,13 +101,13 @@ impl NumberRing {
         Element::new(out)
     }
 
-    /// Whether an element has no more coordinates than the ring. O(1).
+    /// Returns true if an element has no more coordinates than the ring. O(1).
     #[must_use]
     pub fn contains(&self, a: &Element) -> bool {
         a.0.len() <= self.dimension()
     }
 
-    /// Sum. O(dimension).
+    /// Returns the sum. O(dimension).
     #[must_use]
     pub fn add(&self, a: &Element, b: &Element) -> Element {
         let mut out = a.0.clone();
@@ -116,7 +118,7 @@ impl NumberRing {
         Element::new(out)
     }
 
-    /// Difference. O(dimension).
+    /// Returns the difference. O(dimension).
     #[must_use]
     pub fn sub(&self, a: &Element, b: &Element) -> Element {
         let mut out = a.0.clone();
@@ -127,11 +129,11 @@ impl NumberRing {
         Element::new(out)
     }
 
-    /// Product of two elements of the ring. O(dimension² · generators) operations on rationals at most; a rational
-    /// factor costs O(dimension).
+    /// Returns the product of two elements of the ring. At most O(dimension² · generators) operations on rationals; a rational factor
+    /// costs O(dimension).
     ///
     /// # Panics
-    /// Where a factor has more coordinates than the ring, see [`NumberRing::contains`].
+    /// Panics if a factor has more coordinates than the ring, see [`NumberRing::contains`].
     #[must_use]
     pub fn mul(&self, a: &Element, b: &Element) -> Element {
         if a.is_zero() || b.is_zero() {
@@ -147,7 +149,7 @@ impl NumberRing {
         Element::over(product, &(x * y))
     }
 
-    /// Scalar product: fractions are reduced once, not after each sum. O(1) products.
+    /// Computes the scalar product. Fractions are reduced once, not after each sum. O(1) products.
     #[must_use]
     pub fn dot(&self, a: &[Element; 3], b: &[Element; 3]) -> Element {
         let ((a, x), (b, y)) = (over_one(a), over_one(b));
@@ -158,7 +160,7 @@ impl NumberRing {
         Element::over(sum, &(x * y))
     }
 
-    /// Vector product, reduced like [`NumberRing::dot`]. O(1) products.
+    /// Computes the vector product, reduced like [`NumberRing::dot`]. O(1) products.
     #[must_use]
     pub fn cross(&self, a: &[Element; 3], b: &[Element; 3]) -> [Element; 3] {
         let ((a, x), (b, y)) = (over_one(a), over_one(b));
@@ -172,11 +174,11 @@ impl NumberRing {
         [minor(1, 2), minor(2, 0), minor(0, 1)]
     }
 
-    /// Product of integral combinations of the monomials, whose coordinates are given: those of the product, perhaps with zeros
-    /// at the end. O(dimension² · generators) operations on integers at most; an integer costs O(dimension).
+    /// Multiplies integral combinations of the monomials, given by their coordinates. Returns the coordinates of the product, possibly
+    /// with trailing zeros. At most O(dimension² · generators) operations on integers; an integer factor costs O(dimension).
     ///
     /// # Panics
-    /// Where a factor has more coordinates than the ring.
+    /// Panics if a factor has more coordinates than the ring.
     #[must_use]
     pub fn integral_product(&self, a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
         match (a, b) {
@@ -191,7 +193,7 @@ impl NumberRing {
         }
     }
 
-    /// Product of integral combinations of the monomials in the first few generators.
+    /// Returns the product of integral combinations of the monomials in the first few generators.
     fn product(&self, generators: usize, a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
         let Some(step) = generators.checked_sub(1).map(|g| &self.steps[g]) else {
             return vec![&a[0] * &b[0]];
@@ -211,7 +213,7 @@ impl NumberRing {
                 }
             }
         }
-        // Powers from the degree on are brought down by the relation.
+        // Powers from the degree on are reduced by the relation.
         for k in (degree..2 * degree - 1).rev() {
             let top = out.split_off(k * width);
             if top.iter().all(Zero::is_zero) {
@@ -232,8 +234,8 @@ impl NumberRing {
         out
     }
 
-    /// The inverse, or `None` where there is none (in a field: of zero). By Euclid's algorithm on polynomials over the
-    /// ring below: O(degree²) operations there a generator.
+    /// Returns the inverse, or `None` if there is none (in a field: of zero). Uses Euclid's algorithm on polynomials over the ring below:
+    /// O(degree²) operations there per generator.
     #[must_use]
     pub fn inverse(&self, a: &Element) -> Option<Element> {
         match a.0.as_slice() {
@@ -266,11 +268,10 @@ impl NumberRing {
         Some(Element::new(out))
     }
 
-    /// Values of the basis elements under a homomorphism into a prime field, of those made of the generators whose
-    /// images are given. O(length).
+    /// Returns the values of the basis elements under a homomorphism into a prime field, for the generators with given images. O(length).
     ///
     /// # Panics
-    /// Where more images are given than there are generators.
+    /// Panics if there are more images than generators.
     #[must_use]
     pub fn monomials(&self, field: Field, images: &[Residue]) -> Vec<Residue> {
         let mut out = vec![field.one()];
@@ -303,7 +304,7 @@ impl NumberRing {
         trimmed(a)
     }
 
-    /// Quotient and remainder of polynomials; `None` where the divisor's leading coefficient has no inverse.
+    /// Returns quotient and remainder of polynomials, or `None` if the divisor's leading coefficient has no inverse.
     fn divided(&self, a: Vec<Element>, b: &[Element]) -> Option<(Vec<Element>, Vec<Element>)> {
         let lead = self.inverse(b.last()?)?;
         let mut rest = trimmed(a);
@@ -322,19 +323,19 @@ impl NumberRing {
     }
 }
 
-/// Elements as integral coordinates over one denominator.
+/// Returns elements as integral coordinates over one denominator.
 fn over_one(all: &[Element; 3]) -> ([Vec<BigInt>; 3], BigInt) {
     let below = common_denominator(all.iter().flat_map(|x| &x.0));
     (all.each_ref().map(|x| x.times(&below)), below)
 }
 
-/// Changes coordinates by others, one by one; either may be fewer. O(length).
+/// Combines coordinates with others, one by one; either list may be shorter. O(length).
 pub fn combine(of: &mut Vec<BigInt>, by: Vec<BigInt>, with: impl Fn(&mut BigInt, BigInt)) {
     of.resize(of.len().max(by.len()), BigInt::zero());
     of.iter_mut().zip(by).for_each(|(x, y)| with(x, y));
 }
 
-/// The coefficients of an element as a polynomial in a generator whose powers are `width` coordinates apart.
+/// Returns the coefficients of an element as a polynomial in a generator whose powers are `width` coordinates apart.
 fn blocks(a: &Element, width: usize) -> Vec<Element> {
     a.0.chunks(width)
         .map(|c| Element::new(c.to_vec()))
@@ -353,7 +354,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Q(c)(y)(z) with c = 2 cos 40deg, y^2 = 2 and z^2 = 3 + c.
+    /// Returns Q(c)(y)(z) with c = 2 cos 40deg, y^2 = 2 and z^2 = 3 + c.
     fn ring() -> NumberRing {
         let int = Element::integer;
         NumberRing::rationals()

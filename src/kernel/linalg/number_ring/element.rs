@@ -12,7 +12,7 @@ use num_traits::{One, Zero};
 pub struct Element(pub(super) Vec<BigRational>);
 
 impl Element {
-    /// The element with the given coordinates. O(length).
+    /// Creates the element with the given coordinates. O(length).
     #[must_use]
     pub fn new(mut coordinates: Vec<BigRational>) -> Element {
         while coordinates.last().is_some_and(Zero::is_zero) {
@@ -21,31 +21,31 @@ impl Element {
         Element(coordinates)
     }
 
-    /// A rational number. O(1).
+    /// Creates the element of a rational number. O(1).
     #[must_use]
     pub fn rational(value: BigRational) -> Element {
         Element::new(vec![value])
     }
 
-    /// A whole number. O(1).
+    /// Creates the element of a whole number. O(1).
     #[must_use]
     pub fn integer(value: i64) -> Element {
         Element::rational(BigRational::from_integer(BigInt::from(value)))
     }
 
-    /// The coordinates, without trailing zeros. O(1).
+    /// Returns the coordinates, without trailing zeros. O(1).
     #[must_use]
     pub fn coordinates(&self) -> &[BigRational] {
         &self.0
     }
 
-    /// Whether this is 0. O(1).
+    /// Returns true if the element is 0. O(1).
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The rational this is, if it is one. O(1).
+    /// Returns the element as a rational number, if it is one. O(1).
     #[must_use]
     pub fn as_rational(&self) -> Option<BigRational> {
         match self.0.as_slice() {
@@ -55,8 +55,8 @@ impl Element {
         }
     }
 
-    /// The image under a homomorphism, from the images of the ring's monomials; `None` where the prime divides a denominator, or
-    /// the monomials are too few. O(length).
+    /// Returns the image under a homomorphism, from the images of the ring's monomials. Returns `None` if the prime
+    /// divides a denominator, or if there are too few monomials. O(length).
     #[must_use]
     pub fn image(&self, field: Field, monomials: &[Residue]) -> Option<Residue> {
         if self.0.len() > monomials.len() {
@@ -88,19 +88,19 @@ impl Element {
         Element(self.0.iter().map(times).collect())
     }
 
-    /// The least common denominator of the coordinates. See [`common_denominator`].
+    /// Returns the least common denominator of the coordinates. See [`common_denominator`].
     #[must_use]
     pub fn denominator(&self) -> BigInt {
         common_denominator(&self.0)
     }
 
-    /// The coordinates times a common multiple of their denominators. O(length).
+    /// Returns the coordinates times a common multiple of their denominators. O(length).
     #[must_use]
     pub fn times(&self, multiple: &BigInt) -> Vec<BigInt> {
         self.0.iter().map(|q| whole(q, multiple)).collect()
     }
 
-    /// The element of integral coordinates over a denominator. O(length) greatest common divisors.
+    /// Returns the element of integral coordinates over a denominator. O(length) greatest common divisors.
     pub(super) fn over(numerators: Vec<BigInt>, denominator: &BigInt) -> Element {
         let fraction = |n: BigInt| {
             if n.is_zero() {
