@@ -1,7 +1,7 @@
-//! The mechanism: links, joints with their types and frames, named states, contours, and what a search may change.
+//! The mechanism: links, joints with their types and frames, named states, contours, and the changes a search may make.
 //!
-//! Values here are validated: a [`Mechanism`](mechanism::Mechanism) is connected in every state, its ids are unique, its axes are nonzero.
-//! Text formats live in `import`; nothing here reads a file.
+//! Values here are validated: a [`Mechanism`](mechanism::Mechanism) is connected in every state, its ids are unique,
+//! and its axes are nonzero. Text formats are in `import`; nothing here reads a file.
 
 pub mod claim;
 #[cfg(test)]
@@ -25,19 +25,19 @@ macro_rules! id {
         pub struct $name(usize);
 
         impl $name {
-            /// The id of the part at this place of its list.
+            /// Creates the id of the element at this index of its list.
             #[must_use]
             pub const fn new(index: usize) -> Self {
                 Self(index)
             }
 
-            /// The part's place in its list, from 0.
+            /// Returns the element's index in its list, from 0.
             #[must_use]
             pub const fn index(self) -> usize {
                 self.0
             }
 
-            /// The ids of the first `count` parts, in order.
+            /// Returns the ids of the first `count` elements, in order.
             pub fn first(count: usize) -> impl DoubleEndedIterator<Item = Self> + ExactSizeIterator + Clone + use<> {
                 (0..count).map(Self)
             }
@@ -74,21 +74,21 @@ macro_rules! id {
 }
 
 id! {
-    /// A link, by its place in [`Mechanism::links`](mechanism::Mechanism::links).
+    /// A link, by its index in [`Mechanism::links`](mechanism::Mechanism::links).
     LinkId
 }
 
 id! {
-    /// A joint, by its place in [`Mechanism::joints`](mechanism::Mechanism::joints).
+    /// A joint, by its index in [`Mechanism::joints`](mechanism::Mechanism::joints).
     JointId
 }
 
 id! {
-    /// A state, by its place in [`Mechanism::states`](mechanism::Mechanism::states).
+    /// A state, by its index in [`Mechanism::states`](mechanism::Mechanism::states).
     StateId
 }
 
 impl StateId {
-    /// The state every mechanism has, with nothing clamped or added; the first of a file.
+    /// The state that every mechanism has, with nothing clamped or added; the first of a file.
     pub const FREE: StateId = StateId(0);
 }

@@ -1,13 +1,13 @@
-//! What a publication says of the mechanism it shows, and whether that is so.
+//! Claims of a publication about the mechanism it shows, and whether they hold.
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
-/// What a claim is about, and so which command repeats it.
+/// Topic of a claim, which determines the command that reproduces it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Topic {
     /// Mobility and redundant constraints: `ozols analyze`.
     Structure,
-    /// What a gripper can hold: `ozols grip`.
+    /// Loads that a gripper can hold: `ozols grip`.
     Grip,
     /// A torsional drive: `ozols drive`.
     Drive,
@@ -16,10 +16,10 @@ pub enum Topic {
 }
 
 impl Topic {
-    /// All of them.
+    /// All topics.
     pub const ALL: [Topic; 4] = [Topic::Structure, Topic::Grip, Topic::Drive, Topic::Statics];
 
-    /// The word in files.
+    /// Returns the word in files.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -31,26 +31,26 @@ impl Topic {
     }
 }
 
-/// A claim of a publication. It stands in the file of the mechanism that the publication shows, so that nothing of it is told
-/// of any other.
+/// A claim of a publication. It is in the file of the mechanism that the publication shows, so that it is never applied
+/// to another mechanism.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// What it is about.
+    /// The topic.
     pub topic: Topic,
     /// The publication and the place in it.
     pub source: String,
-    /// What is said there.
+    /// The statement made there.
     pub says: String,
-    /// What is right instead; `None` where the claim holds.
+    /// The correct statement, or `None` if the claim holds.
     pub right: Option<String>,
-    /// The part of a scanned text that a refutation rests on, where a misread letter would explain it; `None` elsewhere.
+    /// The part of a scanned text that a refutation depends on, if a misread letter would explain it; `None` otherwise.
     pub scan: Option<String>,
-    /// What that rests on.
+    /// The evidence for it.
     pub evidence: String,
 }
 
 impl Claim {
-    /// Whether it is so.
+    /// Returns true if the claim holds.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.right.is_none()

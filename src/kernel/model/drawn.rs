@@ -1,4 +1,4 @@
-//! Mechanisms for the tests beside the code, which have no files to read.
+//! Mechanisms for unit tests, which have no files to read.
 
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
@@ -6,22 +6,22 @@ use crate::model::mechanism::{
     Frame, Joint, JointOption, LengthUnit, Link, LinkId, Mechanism, Mode, Role,
 };
 
-/// A direction in numbers.
+/// The direction x, in numbers.
 pub(crate) const X: [f64; 3] = [1.0, 0.0, 0.0];
-/// Across it.
+/// The direction y, in numbers.
 pub(crate) const Y: [f64; 3] = [0.0, 1.0, 0.0];
-/// Across both.
+/// The direction z, in numbers.
 pub(crate) const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// A joint of a type between two links, with its point and its axis.
 pub(crate) type Drawn = (JointType, [usize; 2], [f64; 3], [f64; 3]);
 
-/// Numbers as they stand.
+/// Converts numbers to exact ones.
 pub(crate) fn exactly(v: [f64; 3]) -> [Expr; 3] {
     v.map(|x| Expr::from_f64(x).unwrap())
 }
 
-/// A mechanism in space whose link 0 is the frame, and whose joints stay as they are.
+/// Returns a mechanism in space whose link 0 is the frame, and whose joints have no options.
 pub(crate) fn drawn(joints: &[Drawn], outputs: &[usize]) -> Mechanism {
     let last = joints.iter().flat_map(|j| j.1).max().unwrap_or(0);
     let role = |i: usize| match i {
@@ -90,13 +90,13 @@ fn joint(number: usize, drawn: &Drawn) -> Joint {
     }
 }
 
-/// Hinges about z at some points.
+/// Returns hinges about z at some points.
 pub(crate) fn hinges(all: &[([usize; 2], [f64; 3])]) -> Vec<Drawn> {
     let hinge = |&(links, point)| (JointType::Revolute, links, point, Z);
     all.iter().map(hinge).collect()
 }
 
-/// Four bars on a link with others that follow `from`, moved by `by`.
+/// Returns four bars on a link with others numbered after `from`, moved by `by`.
 pub(crate) fn four_bar(on: usize, from: usize, by: f64) -> Vec<Drawn> {
     let links = [
         [on, from],

@@ -1,15 +1,15 @@
-//! What a file says of a torsional drive: two discs on a bar, latches, a cam. SI units, angles in radians.
+//! Specification of a torsional drive in a file: two discs on a bar, latches, a cam. SI units, angles in radians.
 
 /// One step of a programme.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ProgrammeStep {
-    /// The latch of disc 0 or 1 lets go, and the disc swings.
+    /// The latch of disc 0 or 1 opens, and the disc swings.
     Swing(usize),
     /// Both discs stay latched. `[s]`
     Dwell(f64),
 }
 
-/// What takes the energy of a swing.
+/// Damping, which consumes the energy of a swing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Damping {
     /// `[N·m·s/rad]`
@@ -23,30 +23,31 @@ pub struct Damping {
 pub struct Cam {
     /// S, stroke of the spring's end. `[m]`
     pub stroke: f64,
-    /// ψ0, deformation when mounted over the stroke.
+    /// ψ0, deformation when mounted, relative to the stroke.
     pub mounting: f64,
     /// η, mean efficiency.
     pub efficiency: f64,
-    /// From the disc's axis to the roller's centre where the follower is lifted, and the roller's radius, where stated. `[m]`
+    /// Distance of the roller's centre from the disc's axis when the follower is lifted, and the roller's radius, if
+    /// stated. `[m]`
     pub profile: Option<(f64, f64)>,
 }
 
-/// The cam's push on a swinging disc, from where it begins to the latch.
+/// The cam's push on a swinging disc, from its start to the latch.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Push {
-    /// One moment all along.
+    /// A constant moment.
     Even {
-        /// Work in a swing, in place of that of equation (12). `[J]`
+        /// Work in a swing, which replaces that of equation (12). `[J]`
         energy: Option<f64>,
-        /// Where it begins, from the middle of the swing. `[rad]`
+        /// Start of the push, from the middle of the swing. `[rad]`
         from: f64,
     },
-    /// In order: where each piece begins, from the middle of the swing `[rad]`, and its moment `[N·m]`.
+    /// The pieces in order: the start of each, from the middle of the swing `[rad]`, and its moment `[N·m]`.
     Pieces(Vec<(f64, f64)>),
 }
 
 impl Push {
-    /// Where pieces begin, and their moments as multiples of one that is the same for all.
+    /// Returns the starts of the pieces, and their moments as multiples of a common one.
     #[must_use]
     pub fn pieces(&self) -> Vec<(f64, f64)> {
         match self {
@@ -55,7 +56,7 @@ impl Push {
         }
     }
 
-    /// Work up to a latch, where it is stated. `[J]`
+    /// Returns the work up to a latch, if it is stated. `[J]`
     #[must_use]
     pub fn energy(&self, latch: f64) -> Option<f64> {
         match self {
@@ -69,12 +70,12 @@ impl Push {
     }
 }
 
-/// A payload carried on a disc, by which accelerations are told.
+/// A payload carried on a disc, for which accelerations are reported.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Payload {
     /// `[kg]`
     pub mass: f64,
-    /// From the axis to its centre. `[m]`
+    /// Distance of its centre from the axis. `[m]`
     pub radius: f64,
 }
 
@@ -87,28 +88,28 @@ pub struct DriveSpec {
     pub period: f64,
     /// I of the two discs with their payloads. `[kg·m²]`
     pub inertias: [f64; 2],
-    /// The payload, where stated.
+    /// The payload, if stated.
     pub payload: Option<Payload>,
     /// G. `[Pa]`
     pub shear_modulus: f64,
     /// `[τ_s]`. `[Pa]`
     pub allowable_stress: f64,
-    /// Length of the bar to begin with. `[m]`
+    /// Initial length of the bar. `[m]`
     pub length: Option<f64>,
     /// Greatest length of the bar. `[m]`
     pub max_length: Option<f64>,
-    /// Diameters to choose from; any where empty. `[m]`
+    /// Available diameters. If empty, any diameter is allowed. `[m]`
     pub diameters: Vec<f64>,
     /// Δφ, measured. `[rad]`
     pub missing: Option<f64>,
-    /// Damping, where stated.
+    /// Damping, if stated.
     pub damping: Option<Damping>,
-    /// The cam, where stated.
+    /// The cam, if stated.
     pub cam: Option<Cam>,
     /// The cam's push.
     pub push: Push,
-    /// How far short of its groove a latch still catches a disc. `[rad]`
+    /// Distance from its groove at which a latch still catches a disc. `[rad]`
     pub capture: f64,
-    /// What the discs do.
+    /// The motion of the discs.
     pub programme: Vec<ProgrammeStep>,
 }

@@ -1,8 +1,8 @@
-//! What a file says of a two-lever gripper and what it must hold. SI units, angles in radians.
+//! Specification of a two-lever gripper and its loads in a file. SI units, angles in radians.
 
 use crate::model::JointId;
 
-/// Where the levers' pivots are.
+/// Positions of the levers' pivots.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pivots {
     /// At the distance that makes every diameter a nominal one: the gripper is adjusted to the part.
@@ -13,14 +13,14 @@ pub enum Pivots {
     FixedForDiameter,
 }
 
-/// How the drive reaches the levers.
+/// Connection between the drive and the levers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LeverDrive {
-    /// One drive turns both levers by the same angle through gears or a slider, which pass any difference on.
+    /// One drive turns both levers by the same angle through gears or a slider, which transmit any difference.
     Coupled,
-    /// Both levers are given the same moment, as from one pressure in two cylinders.
+    /// Both levers get the same moment, as from one pressure in two cylinders.
     Equal,
-    /// Each lever has a drive of its own that gives any moment from zero to the stated one.
+    /// Each lever has a separate drive that gives any moment from zero to the stated one.
     Independent,
 }
 
@@ -39,7 +39,7 @@ pub enum PartMass {
 }
 
 impl PartMass {
-    /// Length of the part, where it is stated. `[m]`
+    /// Returns the length of the part, if it is stated. `[m]`
     #[must_use]
     pub fn part_length(&self) -> Option<f64> {
         match *self {
@@ -48,7 +48,7 @@ impl PartMass {
         }
     }
 
-    /// Mass of a part of this diameter. `[kg]`
+    /// Returns the mass of a part of this diameter. `[kg]`
     #[must_use]
     pub fn of(&self, diameter: f64) -> f64 {
         match *self {
@@ -69,25 +69,25 @@ pub enum Toward {
     Any(f64),
 }
 
-/// A step of a motion: how the gripper is held and carried.
+/// A step of a motion: orientation and acceleration of the gripper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionStep {
-    /// `[s]`, where stated.
+    /// `[s]`, if stated.
     pub time: Option<f64>,
-    /// The part; the nominal one where not stated. `[m]`
+    /// Diameter of the part. The default is the nominal one. `[m]`
     pub diameter: Option<f64>,
-    /// Gravity in the gripper's axes; the file's where not stated. `[m/s²]`
+    /// Gravity in the gripper's axes. The default is that of the file. `[m/s²]`
     pub gravity: Option<[f64; 3]>,
-    /// Of the gripper in its axes. `[m/s²]`
+    /// Acceleration of the gripper in its axes. `[m/s²]`
     pub acceleration: [f64; 3],
 }
 
-/// What the gripper must hold.
+/// The load that the gripper must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GripLoad {
     /// Mass of the part.
     pub mass: PartMass,
-    /// Mass centre from the part's centre, where the faces are. `[m]`
+    /// Mass centre relative to the part's centre, at the faces. `[m]`
     pub centre_of_mass: [f64; 3],
     /// Gravity in the gripper's axes.
     pub gravity: Toward,
@@ -95,24 +95,24 @@ pub struct GripLoad {
     pub accelerations: Vec<Toward>,
     /// Coefficient of friction between the part and the faces.
     pub friction: f64,
-    /// The load is multiplied by this.
+    /// Factor on the load.
     pub safety: f64,
-    /// How the drive reaches the levers.
+    /// Connection between the drive and the levers.
     pub levers: LeverDrive,
 }
 
-/// How the drive's force becomes the levers' moments.
+/// Relation between the drive's force and the levers' moments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Transmission {
     /// Not stated.
     Unknown,
     /// Travel of the drive per radian of the levers. `[m]`
     Arm(f64),
-    /// Read off the mechanism: the joints the two levers turn in.
+    /// Derived from the mechanism, with the joints of the two levers.
     Joints([JointId; 2]),
 }
 
-/// A gripper of two mirrored levers with V-prisms. `[Pavlenko & Godunko 2010]`
+/// A gripper of two mirrored levers with V-blocks. `[Pavlenko & Godunko 2010]`
 #[derive(Debug, Clone, PartialEq)]
 pub struct GripSpec {
     /// L. `[m]`
@@ -123,21 +123,21 @@ pub struct GripSpec {
     pub mounting_angle: f64,
     /// Nominal diameter D. `[m]`
     pub diameter: f64,
-    /// Diameters to be held, ascending. `[m]`
+    /// Diameters to hold, ascending. `[m]`
     pub diameters: Vec<f64>,
-    /// Where the pivots are.
+    /// Positions of the pivots.
     pub pivots: Pivots,
-    /// Length of the faces, where stated. `[m]`
+    /// Length of the faces, if stated. `[m]`
     pub face_length: Option<f64>,
     /// Width of the levers. `[m]`
     pub lever_width: f64,
-    /// Whether the levers lie in planes of their own and may cross.
+    /// Whether the levers lie in separate planes and may cross.
     pub may_cross: bool,
-    /// What must be held, where stated.
+    /// The load to hold, if stated.
     pub load: Option<GripLoad>,
-    /// How the drive works on the levers.
+    /// Effect of the drive on the levers.
     pub transmission: Transmission,
-    /// The joints of the mechanism that stand for the contacts: upper far, upper near, lower far, lower near; where they are
-    /// named, the contact forces load the jaws in the states that have these joints.
+    /// The joints of the mechanism that represent the contacts: upper far, upper near, lower far, lower near. If they
+    /// are named, the contact forces load the jaws in the states that have these joints.
     pub contacts: Option<[JointId; 4]>,
 }

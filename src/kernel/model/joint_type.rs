@@ -1,5 +1,5 @@
-//! Joint types and the freedoms each leaves, in the joint's own frame; and couplings: joints that move in a fixed ratio, as gears,
-//! belts, racks and mimic joints make them.
+//! Joint types and the freedoms each leaves, in the joint's own frame. Also couplings: joints that move in a fixed
+//! ratio, such as gears, belts, racks and mimic joints.
 
 use crate::geom::expr::Expr;
 use crate::model::JointId;
@@ -36,25 +36,25 @@ impl Freedom {
         (Freedom::Screw, "screw"),
     ];
 
-    /// The word used for this freedom in files.
+    /// Returns the word used for this freedom in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         Freedom::ALL[self as usize].1
     }
 
-    /// Whether it is a turn; a screw is neither a turn nor a slide.
+    /// Returns true if it is a turn; a screw is neither a turn nor a slide.
     #[must_use]
     pub fn turns(self) -> bool {
         matches!(self, Freedom::Rx | Freedom::Ry | Freedom::Rz)
     }
 
-    /// Whether it is a slide.
+    /// Returns true if it is a slide.
     #[must_use]
     pub fn slides(self) -> bool {
         matches!(self, Freedom::Tx | Freedom::Ty | Freedom::Tz)
     }
 
-    /// The freedom a word names, if any.
+    /// Returns the freedom that a word names, if any.
     #[must_use]
     pub fn from_name(word: &str) -> Option<Freedom> {
         Freedom::ALL
@@ -98,7 +98,7 @@ pub enum JointType {
 }
 
 impl JointType {
-    /// Whether the direction of its axis matters: that of a ball does not.
+    /// Returns true if the direction of its axis matters, which is not so for a ball.
     #[must_use]
     pub fn is_directed(&self) -> bool {
         let freedoms = self.freedoms();
@@ -106,7 +106,8 @@ impl JointType {
         !freedoms.is_empty() && (turns < 3 || freedoms.len() > 3)
     }
 
-    /// Whether its second axis matters: turns about both axes across, or slides along both, are the same whichever way x points.
+    /// Returns true if its second axis matters. Turns about both transverse axes, or slides along both, are the same
+    /// for any direction of x.
     #[must_use]
     pub fn has_second_axis(&self) -> bool {
         let across =
@@ -118,7 +119,7 @@ impl JointType {
             && !(pair(Freedom::Rx, Freedom::Ry) && pair(Freedom::Tx, Freedom::Ty))
     }
 
-    /// The types with a name of their own, in the order of the documentation.
+    /// The types with their own names, in the order of the documentation.
     pub const NAMED: [JointType; 13] = [
         JointType::Revolute,
         JointType::Prismatic,
@@ -135,14 +136,14 @@ impl JointType {
         JointType::Fixed,
     ];
 
-    /// The words of all types in files.
+    /// Returns the words of all types in files.
     pub fn words() -> impl Iterator<Item = &'static str> {
         let custom = JointType::Custom(Vec::new()).known().0;
         let named = JointType::NAMED.iter().map(JointType::name);
         named.chain([custom])
     }
 
-    /// The one list of what is known of each type: its word, its freedoms in the joint's frame, and its default cost.
+    /// Returns the properties of each type: its word, its freedoms in the joint's frame, and its default cost.
     fn known(&self) -> (&'static str, &[Freedom], i64) {
         use Freedom::{Rx, Ry, Rz, Screw, Tx, Ty, Tz};
         match self {
@@ -159,7 +160,7 @@ impl JointType {
             JointType::CylinderOnPlane => ("cylinder-on-plane", &[Rz, Rx, Tx, Ty], 2000),
             JointType::SphereOnPlane => ("sphere-on-plane", &[Rx, Ry, Rz, Tx, Ty], 1500),
             JointType::Fixed => ("fixed", &[], 500),
-            // As a revolute joint, and more for each freedom beyond the first.
+            // The cost of a revolute joint, and more for each freedom beyond the first.
             JointType::Custom(list) => {
                 let more = i64::try_from(list.len()).unwrap_or(0) - 1;
                 ("custom", list, 1000 + JointType::CUSTOM_FREEDOM * more)
@@ -170,13 +171,13 @@ impl JointType {
     /// Default cost of each freedom of a custom joint beyond the first, in thousandths of a revolute joint's.
     pub const CUSTOM_FREEDOM: i64 = 750;
 
-    /// The word used for this type in files.
+    /// Returns the word used for this type in files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.known().0
     }
 
-    /// The default cost in thousandths of a revolute joint's: an order of magnitude for machined parts.
+    /// Returns the default cost in thousandths of a revolute joint's: an order of magnitude for machined parts.
     #[must_use]
     pub fn default_cost_milli(&self) -> i64 {
         self.known().2
@@ -237,7 +238,7 @@ impl JointType {
         JointType::NAMED.iter().find(|t| t.name() == word).cloned()
     }
 
-    /// The freedoms of the type, in the joint's frame.
+    /// Returns the freedoms of the type, in the joint's frame.
     ///
     /// # Examples
     /// ```
@@ -250,8 +251,8 @@ impl JointType {
         self.known().1
     }
 
-    /// The freedoms in the order they are passed in from the first link to the second, as in `motion::pose`: slides first, but
-    /// a slot (a slide along x and none along y) after its pin.
+    /// Returns the freedoms in the order of passage from the first link to the second, as in `motion::pose`. Slides
+    /// come first, but a slot (a slide along x and none along y) comes after its pin.
     #[must_use]
     pub fn passed(&self) -> Vec<Freedom> {
         let mut passed = self.freedoms().to_vec();
@@ -260,7 +261,8 @@ impl JointType {
         passed
     }
 
-    /// The class of the joint, its number of constraints (6 - freedoms), in Roman numerals as the field writes it.
+    /// Returns the class of the joint, its number of constraints (6 - freedoms), in Roman numerals as is usual in the
+    /// field.
     #[must_use]
     pub fn class(&self) -> &'static str {
         ["VI", "V", "IV", "III", "II", "I", "0"][self.freedoms().len().min(6)]
@@ -273,7 +275,7 @@ impl fmt::Display for JointType {
     }
 }
 
-/// One of the two freedoms that a coupling ties together.
+/// One of the two freedoms that a coupling connects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CoupledFreedom {
     /// The joint.
@@ -284,20 +286,21 @@ pub struct CoupledFreedom {
 
 /// Two freedoms of two joints that move in a fixed ratio: rate of the second = ratio · rate of the first.
 ///
-/// Rates are in radians and in the file's length unit, whatever the length of the axis in the file, so that the ratio of
-/// a rack and its pinion is a length per radian. The ratio holds for positions too: it does not change along the motion.
+/// Rates are in radians and in the file's length unit, independent of the length of the axis in the file. So the ratio
+/// of a rack and its pinion is a length per radian. The ratio also holds for positions and does not change along the
+/// motion.
 #[derive(Debug, Clone)]
 pub struct Coupling {
     /// The two freedoms, of different joints that are present in the same states.
     pub ends: [CoupledFreedom; 2],
-    /// The ratio; not zero.
+    /// The nonzero ratio.
     pub ratio: Expr,
-    /// Whether gears make it, or a rack and its pinion, so that it can be drawn as their pitch circles.
+    /// Whether it is a pair of gears, or a rack and pinion, so that it can be drawn as pitch circles.
     pub gear: bool,
 }
 
 impl Coupling {
-    /// The end at a joint, if it has one there.
+    /// Returns the index of the end at a joint, if there is one.
     #[must_use]
     pub fn end_at(&self, joint: JointId) -> Option<usize> {
         self.ends.iter().position(|e| e.joint == joint)

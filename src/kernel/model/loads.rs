@@ -1,4 +1,4 @@
-//! What a mechanism carries: masses of links, gravity, forces from outside, and how it is driven.
+//! Loads of a mechanism: masses of links, gravity, external forces, and the drive.
 
 use crate::geom::expr::Expr;
 use crate::model::drive::DriveSpec;
@@ -16,18 +16,18 @@ pub enum Inertia {
     Tensor([f64; 6]),
 }
 
-/// Mass of a link and where it is.
+/// Mass of a link and its position.
 #[derive(Debug, Clone)]
 pub struct MassProperties {
     /// Mass `[kg]`, not negative.
     pub mass: f64,
     /// Mass centre at the pose of the file, in the file's length unit.
     pub centre: [Expr; 3],
-    /// Inertia about the mass centre; none where the file states none.
+    /// Inertia about the mass centre, or `None` if the file does not state it.
     pub inertia: Option<Inertia>,
 }
 
-/// A force from outside, of fixed direction, at a point that moves with a link.
+/// An external force of fixed direction, at a point that moves with a link.
 #[derive(Debug, Clone)]
 pub struct ExternalForce {
     /// The link it acts on.
@@ -36,18 +36,18 @@ pub struct ExternalForce {
     pub point: [Expr; 3],
     /// The force `[N]` in global axes.
     pub force: [Expr; 3],
-    /// The range of the first drive's position it acts in, ends included, again in each turn; always where `None`. Radians,
-    /// or the file's length unit.
+    /// The range of the first drive's position in which it acts, including the ends, and repeated in each turn. `None`
+    /// means always. Radians, or the file's length unit.
     pub range: Option<[f64; 2]>,
-    /// The states it acts in; all where `None`.
+    /// The states in which it acts; `None` means all.
     pub states: Option<Vec<StateId>>,
 }
 
-/// Whether a force acts when the first drive is at a position, counted from the pose of the file, given the range it acts
-/// in (always where there is none); the range comes again after `period`, where there is one.
+/// Returns true if a force acts when the first drive is at a position, relative to the pose of the file. `range` is the
+/// range in which it acts (always if `None`), and is repeated after `period`, if given.
 #[must_use]
 pub fn acts_at(range: Option<[f64; 2]>, drive: f64, period: Option<f64>) -> bool {
-    /// Drive positions nearer than this to the end of a range are in it.
+    /// Tolerance at the ends of a range of drive positions.
     const AT_END: f64 = 1e-9;
     let Some([from, to]) = range else {
         return true;
@@ -58,29 +58,29 @@ pub fn acts_at(range: Option<[f64; 2]>, drive: f64, period: Option<f64>) -> bool
     }
 }
 
-/// A moment from outside, of fixed direction, on a link.
+/// An external moment of fixed direction on a link.
 #[derive(Debug, Clone)]
 pub struct ExternalMoment {
     /// The link it acts on.
     pub link: LinkId,
     /// The moment `[N·m]` in global axes.
     pub moment: [Expr; 3],
-    /// The states it acts in; all where `None`.
+    /// The states in which it acts; `None` means all.
     pub states: Option<Vec<StateId>>,
 }
 
-/// What the face of a contact with a clamped part can do beside pushing.
+/// Properties of the face of a contact with a clamped part, in addition to pushing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
     /// The joint.
     pub joint: JointId,
-    /// Coefficient of friction; as much friction as it takes where `None`.
+    /// Coefficient of friction. `None` means as much friction as required.
     pub friction: Option<f64>,
-    /// Radius in the file's length unit, within which the pressure has its centre; anywhere where `None`.
+    /// Radius in the file's length unit within which the centre of pressure lies. `None` means anywhere.
     pub radius: Option<f64>,
 }
 
-/// How stiff a joint is where it does not move, alike in all directions.
+/// Stiffness of a joint in its constrained directions, the same in all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stiffness {
     /// Force by displacement `[N/m]`, positive.
@@ -89,30 +89,31 @@ pub struct Stiffness {
     pub angular: f64,
 }
 
-/// A joint made or mounted askew: its second link is turned and shifted by this against its first where nothing strains it.
+/// A joint made or mounted inaccurately: without strain, its second link is turned and shifted by this relative to its
+/// first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Misalignment {
     /// The joint.
     pub joint: JointId,
-    /// The turn `[rad]` about x, y and z of the joint's own frame, small.
+    /// The small turn `[rad]` about x, y and z of the joint's own frame.
     pub turn: [f64; 3],
-    /// The shift `[m]` along them, small.
+    /// The small shift `[m]` along them.
     pub shift: [f64; 3],
 }
 
 /// A range of the first drive's position, from the pose of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// Where it begins `[rad]` or in the file's length unit.
+    /// Start `[rad]` or in the file's length unit.
     pub from: f64,
-    /// Where it ends.
+    /// End.
     pub to: f64,
     /// Number of equal steps, at least 1.
     pub steps: usize,
 }
 
 impl Stroke {
-    /// Its positions, both ends included.
+    /// Returns its positions, including both ends.
     #[must_use]
     pub fn positions(&self) -> Vec<f64> {
         let steps = self.steps.max(1);
@@ -124,7 +125,7 @@ impl Stroke {
     }
 }
 
-/// Whether what acts in `states`, in all where there are none, acts in `state`.
+/// Returns true if something that acts in `states`, or in all states if `None`, acts in `state`.
 #[must_use]
 pub fn acts_in(states: Option<&Vec<StateId>>, state: StateId) -> bool {
     states.is_none_or(|s| s.contains(&state))
@@ -133,30 +134,31 @@ pub fn acts_in(states: Option<&Vec<StateId>>, state: StateId) -> bool {
 /// Loads and drive of a mechanism.
 #[derive(Debug, Clone, Default)]
 pub struct Loads {
-    /// Acceleration of gravity `[m/s²]`, where the file states one.
+    /// Acceleration of gravity `[m/s²]`, if the file states one.
     pub gravity: Option<[Expr; 3]>,
-    /// Forces from outside.
+    /// External forces.
     pub forces: Vec<ExternalForce>,
-    /// Moments from outside.
+    /// External moments.
     pub moments: Vec<ExternalMoment>,
-    /// Stiffness by the name of a joint type; `default` for the rest.
+    /// Stiffness by the name of a joint type; `default` for all others.
     pub stiffness: Vec<(String, Stiffness)>,
     /// Faces of contacts.
     pub faces: Vec<Face>,
-    /// Joints made askew.
+    /// Inaccurate joints.
     pub misalignments: Vec<Misalignment>,
-    /// Speed of each drive `[rad/s]` or in the file's length unit per second; those not stated stand still.
+    /// Speed of each drive `[rad/s]` or in the file's length unit per second. Drives without a stated speed are at
+    /// rest.
     pub drive_speeds: Vec<f64>,
-    /// The cycle, where the file states one.
+    /// The cycle, if the file states one.
     pub stroke: Option<Stroke>,
-    /// The gripper that the mechanism is, and what it must hold, where the file says so.
+    /// The gripper that the mechanism represents, and its load, if the file states them.
     pub grip: Option<GripSpec>,
-    /// The torsional drive, where the file states one.
+    /// The torsional drive, if the file states one.
     pub drive: Option<DriveSpec>,
 }
 
 impl Loads {
-    /// Only the forces and moments of a state, which then act wherever these loads are put.
+    /// Returns only the forces and moments of a state, which then act in any state of the result.
     #[must_use]
     pub fn in_state(&self, state: StateId) -> Loads {
         let mut out = self.clone();
@@ -167,7 +169,7 @@ impl Loads {
         out
     }
 
-    /// Whether a force or moment from outside acts in a state.
+    /// Returns true if an external force or moment acts in a state.
     #[must_use]
     pub fn acts_from_outside(&self, state: StateId) -> bool {
         let force = self.forces.iter().map(|f| f.states.as_ref());

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 pub use crate::model::{JointId, LinkId, StateId};
 
-/// What a link is for.
+/// Purpose of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Role {
     /// Fixed to the ground; exactly one link.
@@ -28,9 +28,9 @@ pub enum Role {
 pub struct Link {
     /// The name used in the file.
     pub id: String,
-    /// What the link is for.
+    /// Purpose of the link.
     pub role: Role,
-    /// Its mass, where the file states one.
+    /// Its mass, if the file states one.
     pub mass: Option<MassProperties>,
 }
 
@@ -41,25 +41,25 @@ pub struct PointOfInterest {
     pub id: String,
     /// The link that it is fixed to.
     pub link: LinkId,
-    /// Where it is at the pose of the file, in its length unit.
+    /// Its position at the pose of the file, in the file's length unit.
     pub point: [Expr; 3],
 }
 
-/// Where a joint is and how it is turned: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
+/// Position and orientation of a joint: z = `axis`, x = `reference` made perpendicular to it, y = z × x.
 #[derive(Debug, Clone)]
 pub struct Frame {
     /// Origin of the joint, in the file's length unit, global axes.
     pub point: [Expr; 3],
     /// Direction of z; nonzero, of any length.
     pub axis: [Expr; 3],
-    /// Direction that x is made from; nonzero and not parallel to the axis.
+    /// Direction from which x is computed; nonzero and not parallel to the axis.
     pub reference: [Expr; 3],
     /// Translation along z per radian, for helical joints, in the file's length unit.
     pub pitch: Expr,
 }
 
 impl Frame {
-    /// Whether two frames are written alike; `false` says nothing.
+    /// Returns true if two frames are written identically; `false` decides nothing.
     pub fn is_same(&self, other: &Frame) -> bool {
         let same = |a: &[Expr; 3], b: &[Expr; 3]| a.iter().zip(b).all(|(a, b)| a.is_same(b));
         same(&self.point, &other.point)
@@ -69,23 +69,23 @@ impl Frame {
     }
 }
 
-/// A realizable joint that a search may put at a place.
+/// A realizable joint that a search may use at a joint.
 #[derive(Debug, Clone)]
 pub struct JointOption {
     /// The word shown in results; unique among the options of one joint.
     pub name: String,
     /// The type.
     pub joint_type: JointType,
-    /// The frame at this joint's place (its own `reference` or `pitch` may differ from the present joint's).
+    /// The frame at this joint (its own `reference` or `pitch` may differ from the original joint's).
     pub frame: Frame,
-    /// The option's own cost in thousandths, where the file states one.
+    /// The option's own cost in thousandths, if the file states one.
     pub cost_milli: Option<i64>,
-    /// The state whose search alone offers it; any search where there is none.
+    /// The state whose search offers it, or `None` for any search.
     pub state: Option<StateId>,
 }
 
 impl JointOption {
-    /// Returns a type in the frame of a joint, by the name of the type, for any search.
+    /// Creates a type in the frame of a joint, by the name of the type, for any search.
     #[must_use]
     pub fn in_frame_of(joint: &Joint, joint_type: &JointType) -> JointOption {
         JointOption {
@@ -105,36 +105,37 @@ pub struct Joint {
     pub id: String,
     /// The two links.
     pub links: [LinkId; 2],
-    /// The present type.
+    /// The original type.
     pub joint_type: JointType,
-    /// Place and orientation.
+    /// Position and orientation.
     pub frame: Frame,
     /// Whether the mechanism is driven here.
     pub drive: bool,
-    /// The freedom that is driven, where the file names it; of a driven joint alone.
+    /// The driven freedom of a driven joint, if the file names it.
     pub drive_freedom: Option<Freedom>,
     /// The states the joint is present in; `None` for all of them.
     pub states: Option<Vec<StateId>>,
-    /// What a search may put here, the present joint first; only the present joint when it must stay.
+    /// Joint types the search may use here, the original first. Contains only the original if the joint must not
+    /// change.
     pub options: Vec<JointOption>,
-    /// Unloading joints that a search may insert in series here, with an extra link; empty where not allowed.
+    /// Unloading joints that a search may insert in series here, with an extra link. Empty if not allowed.
     pub unloading: Vec<JointOption>,
 }
 
 impl Joint {
-    /// Whether it is present in a state.
+    /// Returns true if it is present in a state.
     #[must_use]
     pub fn is_in(&self, state: StateId) -> bool {
         self.states.as_ref().is_none_or(|s| s.contains(&state))
     }
 
-    /// Whether the drive may be this freedom: the one named, or any where none is.
+    /// Returns true if the drive may move this freedom: the named one, or any if none is named.
     #[must_use]
     pub fn drives(&self, freedom: Freedom) -> bool {
         self.drive && self.drive_freedom.is_none_or(|named| named == freedom)
     }
 
-    /// What a search may put here or insert here.
+    /// Returns the options that a search may use or insert here.
     pub fn offered(&self) -> impl Iterator<Item = &JointOption> {
         self.options.iter().chain(&self.unloading)
     }
@@ -145,7 +146,7 @@ impl Joint {
 pub enum Mode {
     /// Six rows per contour.
     Spatial,
-    /// Three rows per contour: rotation about `normal` and the two translations across it.
+    /// Three rows per contour: rotation about `normal` and the two translations perpendicular to it.
     Planar {
         /// Normal of the plane of motion.
         normal: [Expr; 3],
@@ -169,20 +170,20 @@ impl LengthUnit {
     }
 }
 
-/// What a file says a mechanism's figures are, with where that is published.
+/// Stated figures of a mechanism, with their source.
 #[derive(Debug, Clone, Default)]
 pub struct Expected {
     /// Name of the state.
     pub state: String,
     /// W at the pose of the file.
     pub mobility: Option<i64>,
-    /// W of the motion that is really there; smaller than at the pose where the pose is singular or shaky.
+    /// Finite mobility; smaller than at the pose if the pose is singular or shaky.
     pub finite_mobility: Option<i64>,
     /// Dimension of the output links' motion.
     pub working_mobility: Option<i64>,
     /// W less the working mobility.
     pub local_mobility: Option<i64>,
-    /// σ of the whole.
+    /// σ of the whole mechanism.
     pub redundant: Option<i64>,
     /// σ that the state adds to the free one.
     pub external_redundant: Option<i64>,
@@ -199,7 +200,7 @@ pub struct CostSpec {
     pub change_milli: Option<i64>,
     /// Cost of the extra link of an unloading joint.
     pub link_milli: Option<i64>,
-    /// Cost of changing a driven joint besides.
+    /// Additional cost of changing a driven joint.
     pub driven_milli: Option<i64>,
     /// Cost of a harmful redundant constraint that a searched state adds.
     pub harmful_milli: Option<i64>,
@@ -210,26 +211,28 @@ impl CostSpec {
     pub const LINK_MILLI: i64 = 1000;
 }
 
-/// What the file asks of a search.
+/// Search settings of the file.
 #[derive(Debug, Clone, Default)]
 pub struct SearchSpec {
-    /// Links besides the outputs that must not gain a motion.
+    /// Links, in addition to the outputs, that must not gain a motion.
     pub hold: Vec<LinkId>,
     /// Pairs of joints that are mirror images of each other.
     pub mirror: Vec<(JointId, JointId)>,
-    /// Joints that become each other when the mechanism is turned, each the next and the last the first: two by half a turn,
-    /// three by a third. Not beside mirror images.
+    /// Joints that map to each other when the mechanism is turned, each to the next and the last to the first: two by
+    /// half a turn, three by a third. Not allowed together with mirror images.
     pub turn: Vec<Vec<JointId>>,
     /// Costs.
     pub costs: CostSpec,
-    /// The driven freedoms that a search follows beside the motions of outputs; a search enters them, no file does.
+    /// The driven freedoms that a search follows, in addition to the motions of outputs. They are set by a search, not
+    /// by a file.
     pub drives: Vec<CoupledFreedom>,
-    /// Whether the search locks these freedoms, so that their rates are further closure equations; else it keeps their motion.
+    /// Whether the search locks these freedoms, so that their rates are further closure equations. Otherwise it keeps
+    /// their motion.
     pub locks_drives: bool,
 }
 
 impl SearchSpec {
-    /// The joint that another becomes by the mechanism's symmetry; itself where nothing names it.
+    /// Returns the joint that another maps to by the mechanism's symmetry, or the joint itself if none is stated.
     #[must_use]
     pub fn image(&self, j: JointId) -> JointId {
         let pairs = self.mirror.iter().flat_map(|&(a, b)| [(a, b), (b, a)]);
@@ -242,7 +245,7 @@ impl SearchSpec {
         by_mirror.or(by_turn).unwrap_or(j)
     }
 
-    /// How often the symmetry is done until all is back in place; 1 where there is none.
+    /// Returns the order of the symmetry, after which all joints are back in place; 1 if there is none.
     #[must_use]
     pub fn order(&self) -> usize {
         match (self.mirror.is_empty(), self.turn.first()) {
@@ -258,9 +261,9 @@ impl SearchSpec {
 pub struct Mechanism {
     /// Short name.
     pub name: String,
-    /// One or two sentences for people.
+    /// One or two sentences for display.
     pub description: String,
-    /// Where the mechanism and its figures come from.
+    /// Sources of the mechanism and its figures.
     pub sources: Vec<String>,
     /// Unit of all lengths.
     pub length_unit: LengthUnit,
@@ -274,23 +277,24 @@ pub struct Mechanism {
     pub couplings: Vec<Coupling>,
     /// Names of the states; the first is `free`.
     pub states: Vec<String>,
-    /// The contour basis the file names, as lists of joints, if any.
+    /// The contour basis named in the file, as lists of joints, if any.
     pub contours: Vec<Vec<JointId>>,
-    /// What the file asks of a search.
+    /// Search settings of the file.
     pub search: SearchSpec,
     /// Loads and drive.
     pub loads: Loads,
-    /// How variants are ranked, where the file says so.
+    /// Ranking of variants, if the file states one.
     pub ranking: Option<Ranking>,
-    /// What the file says of joint types.
+    /// Properties of joint types stated in the file.
     pub joint_types: Vec<TypeOverride>,
     /// Points of interest.
     pub points: Vec<PointOfInterest>,
     /// Known figures.
     pub expected: Vec<Expected>,
-    /// What publications say of it, so or not.
+    /// Claims of publications about it, correct or not.
     pub claims: Vec<Claim>,
-    /// What a reader of another format took for granted or left out, a sentence each: figures are those of the file as read.
+    /// Assumptions and omissions of the reader of another format, one sentence each. The figures are those of the file
+    /// as read.
     pub assumed: Vec<String>,
 }
 
@@ -301,55 +305,55 @@ impl From<&Mechanism> for Arc<Mechanism> {
 }
 
 impl Mechanism {
-    /// The ids of the links, in file order.
+    /// Returns the ids of the links, in file order.
     pub fn link_ids(
         &self,
     ) -> impl DoubleEndedIterator<Item = LinkId> + ExactSizeIterator + Clone + use<> {
         LinkId::first(self.links.len())
     }
 
-    /// The ids of the joints, in file order.
+    /// Returns the ids of the joints, in file order.
     pub fn joint_ids(
         &self,
     ) -> impl DoubleEndedIterator<Item = JointId> + ExactSizeIterator + Clone + use<> {
         JointId::first(self.joints.len())
     }
 
-    /// The ids of the states, the free one first.
+    /// Returns the ids of the states, the free one first.
     pub fn state_ids(
         &self,
     ) -> impl DoubleEndedIterator<Item = StateId> + ExactSizeIterator + Clone + use<> {
         StateId::first(self.states.len())
     }
 
-    /// The links with their ids, in file order.
+    /// Returns the links with their ids, in file order.
     pub fn links_with_ids(&self) -> impl Iterator<Item = (LinkId, &Link)> {
         self.link_ids().zip(&self.links)
     }
 
-    /// The joints with their ids, in file order.
+    /// Returns the joints with their ids, in file order.
     pub fn joints_with_ids(&self) -> impl Iterator<Item = (JointId, &Joint)> {
         self.joint_ids().zip(&self.joints)
     }
 
-    /// The states' names with their ids, the free one first.
+    /// Returns the states' names with their ids, the free one first.
     pub fn states_with_ids(&self) -> impl Iterator<Item = (StateId, &String)> {
         self.state_ids().zip(&self.states)
     }
 
-    /// The joints present in a state, in file order.
+    /// Returns the joints present in a state, in file order.
     pub fn joints_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
         self.joint_ids()
             .filter(move |&j| self.joints[j].is_in(state))
     }
 
-    /// The joints that a state has and the free one has not, in file order.
+    /// Returns the joints that a state has and the free one does not, in file order.
     pub fn joints_added_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
         let only_here = |j: &JointId| !self.joints[*j].is_in(StateId::FREE);
         self.joints_in(state).filter(only_here)
     }
 
-    /// The couplings of a state, those whose joints are present in it, in file order.
+    /// Returns the couplings of a state, those whose joints are present in it, in file order.
     pub fn couplings_in(&self, state: StateId) -> impl Iterator<Item = &Coupling> + '_ {
         let present = move |j: JointId| self.joints[j].is_in(state);
         self.couplings
@@ -357,16 +361,16 @@ impl Mechanism {
             .filter(move |c| c.ends.iter().all(|e| present(e.joint)))
     }
 
-    /// The couplings of a joint, by index, each with the end that is this joint's.
+    /// Returns the couplings of a joint, by index, each with the end at this joint.
     pub fn couplings_of(&self, joint: JointId) -> impl Iterator<Item = (usize, usize)> + '_ {
         let of = move |(q, c): (usize, &Coupling)| Some((q, c.end_at(joint)?));
         self.couplings.iter().enumerate().filter_map(of)
     }
 
-    /// The frame link.
+    /// Returns the frame link.
     ///
     /// # Panics
-    /// Never: a validated mechanism has one.
+    /// Never panics, because a validated mechanism has a frame.
     #[must_use]
     pub fn frame(&self) -> LinkId {
         self.link_ids()
@@ -374,13 +378,13 @@ impl Mechanism {
             .expect("a validated mechanism has a frame")
     }
 
-    /// Whether digits of π stand in the pitch of a screw, so that nothing about the mechanism is exact.
+    /// Returns true if the pitch of a screw contains π as decimals, so that nothing about the mechanism is exact.
     #[must_use]
     pub fn has_pi(&self) -> bool {
         self.joints.iter().any(|j| j.frame.pitch.has_pi())
     }
 
-    /// "frame 0", in words for people; a link that is called "frame" is not called it twice.
+    /// Returns "frame 0", for display. A link with the id "frame" is not named twice.
     #[must_use]
     pub fn frame_words(&self) -> String {
         match self.links[self.frame()].id.as_str() {
@@ -389,19 +393,19 @@ impl Mechanism {
         }
     }
 
-    /// The link with this id.
+    /// Returns the link with this id.
     #[must_use]
     pub fn link(&self, id: &str) -> Option<LinkId> {
         self.link_ids().find(|&l| self.links[l].id == id)
     }
 
-    /// The state with this name.
+    /// Returns the state with this name.
     #[must_use]
     pub fn state(&self, name: &str) -> Option<StateId> {
         self.state_ids().find(|&s| self.states[s] == name)
     }
 
-    /// The joint with this id.
+    /// Returns the joint with this id.
     #[must_use]
     pub fn joint(&self, id: &str) -> Option<JointId> {
         self.joint_ids().find(|&j| self.joints[j].id == id)
@@ -409,7 +413,7 @@ impl Mechanism {
 }
 
 impl Coupling {
-    /// Its name for people: the two joints, each with its freedom where it has several.
+    /// Returns its name for display: the two joints, each with its freedom if it has several.
     #[must_use]
     pub fn name(&self, mechanism: &Mechanism) -> String {
         let [a, b] = self.ends.map(|e| {

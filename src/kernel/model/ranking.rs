@@ -1,17 +1,18 @@
-//! How a file wants variants ranked, and what it says of joint types.
+//! Ranking of variants in a file, and the properties of joint types stated there.
 
 use crate::model::StateId;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 
-/// What variants are scored by. Smaller is better, but for conditioning.
+/// Term by which variants are scored. Smaller is better, except for conditioning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Term {
-    /// The greatest joint force over its type's capacity.
+    /// The largest joint force relative to its type's capacity.
     PeakForce,
-    /// The greatest joint moment over its type's capacity.
+    /// The largest joint moment relative to its type's capacity.
     PeakMoment,
-    /// Smallest over greatest singular value of the closure equations with the drives held; greater is better.
+    /// Ratio of the smallest to the largest singular value of the closure equations with the drives held; larger is
+    /// better.
     Conditioning,
     /// Error of the outputs' position from the clearances of the joints `[m]`.
     OutputError,
@@ -25,27 +26,27 @@ pub enum Term {
     Harmful,
 }
 
-/// What is said of a term wherever it stands: files, text, JSON, CSV, the schema and the help follow from it.
+/// Description of a term: files, text, JSON, CSV, the schema and the help use it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AboutTerm {
     /// The word used for it in files and on the command line.
     pub word: &'static str,
     /// Its key among the scores in JSON, and with underscores the head of its column in CSV.
     pub key: &'static str,
-    /// The head of its column in a list of variants; `None` where such a list has the column anyway.
+    /// The head of its column in a list of variants, or `None` if such a list already has the column.
     pub heading: Option<&'static str>,
-    /// Whether it is a column of the ranking in CSV, and not one that every variant has there.
+    /// Whether it is a separate column of the ranking in CSV, and not one that every variant already has.
     pub csv: bool,
-    /// Whether it counts something.
+    /// Whether it is a count.
     pub is_count: bool,
-    /// What the figure is multiplied by in lists and in a weighted sum.
+    /// Factor on the figure in lists and in a weighted sum.
     pub scale: f64,
-    /// What it is, for who writes a file.
+    /// Its meaning, for authors of files.
     pub meaning: &'static str,
 }
 
 impl AboutTerm {
-    /// Of a term that is measured, as most are.
+    /// Describes a term that is measured, as most are.
     const fn measured(word: &'static str, meaning: &'static str) -> AboutTerm {
         AboutTerm {
             word,
@@ -60,7 +61,7 @@ impl AboutTerm {
 }
 
 impl Term {
-    /// Every term.
+    /// All terms.
     pub const ALL: [Term; 8] = [
         Term::PeakForce,
         Term::PeakMoment,
@@ -72,7 +73,7 @@ impl Term {
         Term::Harmful,
     ];
 
-    /// What is said of it.
+    /// Returns its description.
     #[must_use]
     pub fn about(self) -> AboutTerm {
         match self {
@@ -90,7 +91,7 @@ impl Term {
                     "the greatest joint moment over its type's capacity",
                 )
             },
-            // A variant has a conditioning with its drives free, too.
+            // A variant also has a conditioning with its drives free.
             Term::Conditioning => AboutTerm {
                 key: "conditioning-held",
                 heading: Some("cond. held"),
@@ -130,7 +131,7 @@ impl Term {
         }
     }
 
-    /// The word used for it in files and results.
+    /// Returns the word used for it in files and results.
     ///
     /// # Examples
     /// ```
@@ -143,13 +144,13 @@ impl Term {
         self.about().word
     }
 
-    /// The head of its column in a list of variants; `None` where such a list has the column anyway.
+    /// Returns the head of its column in a list of variants, or `None` if such a list already has the column.
     #[must_use]
     pub fn heading(self) -> Option<&'static str> {
         self.about().heading
     }
 
-    /// The term a word names.
+    /// Returns the term that a word names.
     #[must_use]
     pub fn from_name(word: &str) -> Option<Term> {
         Term::ALL.into_iter().find(|t| t.name() == word)
@@ -162,7 +163,7 @@ impl Serialize for Term {
     }
 }
 
-/// How terms make an order.
+/// Order of variants by several terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Order {
     /// By the sum of weight times term.
@@ -170,7 +171,7 @@ pub enum Order {
     Weighted,
     /// By the first term, then the second, and so on.
     Lexicographic,
-    /// Those that no other is better than in all terms first, front by front.
+    /// By Pareto fronts: first the variants that are not dominated by another in all terms.
     Pareto,
 }
 
@@ -182,7 +183,7 @@ impl Order {
         (Order::Pareto, "pareto"),
     ];
 
-    /// The word used for it in files and results.
+    /// Returns the word used for it in files and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         Order::ALL[self as usize].1
@@ -195,25 +196,25 @@ impl Serialize for Order {
     }
 }
 
-/// How clearances add up at the outputs.
+/// Addition of clearances at the outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ClearanceSum {
-    /// Every joint is off the worst way.
+    /// Every joint deviates in the worst direction.
     #[default]
     Worst,
-    /// Root mean square for independent directions, all alike.
+    /// Root mean square for independent directions with equal probability.
     Rms,
 }
 
 /// A bound that variants must keep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Limit {
-    /// Of this term.
+    /// The term.
     pub term: Term,
-    /// Not below.
+    /// Lower bound.
     pub min: Option<f64>,
-    /// Not above.
+    /// Upper bound.
     pub max: Option<f64>,
 }
 
@@ -222,14 +223,14 @@ pub struct Limit {
 pub struct Ranking {
     /// The order.
     pub order: Order,
-    /// The terms with their weights, not negative, the first the most important.
+    /// The terms with their nonnegative weights, the most important first.
     #[serde(serialize_with = "with_weights")]
     pub terms: Vec<(Term, f64)>,
     /// Bounds to keep.
     pub limits: Vec<Limit>,
-    /// How clearances add up.
+    /// Addition of clearances.
     pub clearance: ClearanceSum,
-    /// The states that count; those with loads where there are none.
+    /// The states that count. If empty, those with loads.
     #[serde(skip)]
     pub states: Vec<StateId>,
 }
@@ -239,15 +240,15 @@ fn with_weights<S: Serializer>(terms: &[(Term, f64)], serializer: S) -> Result<S
     serializer.collect_seq(terms.iter().map(one))
 }
 
-/// What a file says of a joint type in place of the catalogue.
+/// Properties of a joint type in a file, which replace those of the catalogue.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TypeOverride {
     /// Name of the type or option.
     pub name: String,
-    /// Force it bears `[N]`.
+    /// Force capacity `[N]`.
     pub capacity_force: Option<f64>,
-    /// Moment it bears `[N·m]`.
+    /// Moment capacity `[N·m]`.
     pub capacity_moment: Option<f64>,
-    /// Play between its parts, from the middle to the end `[m]`.
+    /// Clearance between its parts, from the middle to the end `[m]`.
     pub clearance: Option<f64>,
 }

@@ -1,8 +1,8 @@
-//! Coordinates that were rounded, measured or computed in floating point, told by their digits, and how finely they are
-//! rounded.
+//! Detection of coordinates that were rounded, measured or computed in floating point, by their digits, and the unit of
+//! their rounding.
 //!
-//! Exact ranks take every digit at its word, so an axis that is parallel to another but for the last digit counts as
-//! tilted, and constraints that are redundant in truth count as independent.
+//! Exact ranks take every digit as written. So an axis that is parallel to another except for the last digit counts as
+//! tilted, and constraints that are actually redundant count as independent.
 
 mod class;
 pub mod ratio;
@@ -22,32 +22,33 @@ use std::fmt;
 
 /// Decimals with at least this many significant digits count as measured or computed, not chosen.
 pub const DIGITS: usize = 9;
-/// One in so many of those has the unit or a coarser one: a last digit that happens to be 0 is one in ten.
+/// Minimum share of those decimals, one in this many, with the unit or a coarser one. One last digit in ten happens to
+/// be 0.
 const SHARE: usize = 5;
 
-/// A unit in the last place of coordinates.
+/// One unit in the last place of coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
-    /// Of points and pitches, in the file's unit of length; 0 where they are exact.
+    /// Unit of points and pitches, in the file's unit of length; 0 if they are exact.
     pub length: f64,
-    /// Of the components of directions of unit length; 0 where they are exact.
+    /// Unit of the components of directions of unit length; 0 if they are exact.
     pub direction: f64,
 }
 
-/// Why a mechanism looks rounded, and how finely.
+/// Evidence that a mechanism is rounded, and the unit of rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rounded {
-    /// How many coordinates look so.
+    /// Number of coordinates that look rounded.
     pub coordinates: usize,
-    /// Where the first of them is, such as `axis of joint 2-3`.
+    /// Location of the first of them, such as `axis of joint 2-3`.
     pub place: String,
     /// Its value as text.
     pub value: String,
     /// The unit in their last place.
     pub units: Units,
-    /// Whether digits of π make it look so, and nothing else.
+    /// Whether only digits of π make it look rounded.
     pub pi: bool,
-    /// The fewest digits among those that look measured, [`DIGITS`] or more; none where no coordinate does.
+    /// The fewest digits among the coordinates that look measured, [`DIGITS`] or more, or `None` if there are none.
     pub digits: Option<usize>,
 }
 
@@ -61,23 +62,23 @@ impl fmt::Display for Rounded {
     }
 }
 
-/// What a coordinate is one of: a length, or a direction.
+/// Kind of a coordinate: a length, or a component of a direction.
 #[derive(Clone, Copy)]
 struct CoordinateKind {
     /// The length of the direction; 0 for a length.
     norm: f64,
-    /// From how many digits on it is long.
+    /// Number of digits from which on it counts as long.
     least: usize,
 }
 
 impl CoordinateKind {
-    /// That of points and pitches.
+    /// The kind of points and pitches.
     const LENGTH: CoordinateKind = CoordinateKind {
         norm: 0.0,
         least: LONG_LENGTH,
     };
 
-    /// That of the components of a direction.
+    /// Returns the kind of the components of a direction.
     fn of_direction(direction: &[Expr; 3]) -> CoordinateKind {
         let least = if is_rounded(direction) {
             1
@@ -91,20 +92,20 @@ impl CoordinateKind {
     }
 }
 
-/// What is seen of a mechanism's decimals.
+/// Statistics of a mechanism's decimals.
 #[derive(Default)]
 struct SeenDecimals {
     /// Units of long lengths, and of long components of directions, by their size.
     units: [BTreeMap<u64, f64>; 2],
-    /// Number, place and value as text of the first coordinate, for those that look measured and for all.
+    /// Count, location and value as text of the first coordinate, for those that look measured and for all.
     first: [Option<(usize, String, String)>; 2],
     digits: Option<usize>,
-    /// How many of those that look measured have π.
+    /// Number of those that look measured and contain π.
     pi: usize,
 }
 
 impl SeenDecimals {
-    /// Takes in a coordinate.
+    /// Adds a coordinate.
     fn see(&mut self, v: &Expr, kind: CoordinateKind, place: &dyn Fn() -> String) {
         let direction = kind.norm > 0.0;
         let long = |d: &Decimal| d.digits.is_none_or(|n| n >= kind.least);
@@ -112,7 +113,7 @@ impl SeenDecimals {
             return;
         };
         let of = if direction { kind.norm } else { 1.0 };
-        // A value that is used at several joints is one number.
+        // A value used at several joints is one number.
         let size = v.to_f64().abs().to_bits();
         self.units[usize::from(direction)].insert(size, decimal.unit / of);
         let digits = decimal.digits.filter(|n| *n >= DIGITS);
@@ -147,7 +148,7 @@ impl SeenDecimals {
     }
 }
 
-/// A coordinate as it is told.
+/// Returns the text of a coordinate for reports.
 fn text(v: &Expr) -> String {
     if v.has_pi() {
         format!("{v}, with {PI_DIGITS} decimals of pi")
@@ -156,22 +157,25 @@ fn text(v: &Expr) -> String {
     }
 }
 
-/// The coarsest unit that enough decimals share; 0 of none.
+/// Returns the coarsest unit that enough decimals share; 0 for none.
 fn shared(mut units: Vec<f64>) -> f64 {
     units.sort_by(|a, b| b.total_cmp(a));
     let enough = units.len().div_ceil(SHARE);
     enough.checked_sub(1).map_or(0.0, |i| units[i])
 }
 
-/// Whether coordinates of the joints, their options, or the plane are decimals long enough to have been rounded: lengths of
-/// four significant digits and more, directions of three, or of two where they are of length 1 to within them and not exactly. Fractions and roots written as such are exact however long their
-/// decimals are, and so are whole numbers.
+/// Returns the evidence if coordinates of the joints, their options, or the plane are decimals long enough to have been
+/// rounded.
+///
+/// A length is long with at least four significant digits, and a direction with three. Two are enough if the direction
+/// has length 1 within them and not exactly. Fractions and roots written as such are exact, however long their decimals
+/// are, and so are whole numbers.
 #[must_use]
 pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     let mut seen = SeenDecimals::default();
     for joint in &mechanism.joints {
         seen.see_frame(&joint.frame, &|| format!("joint {}", joint.id));
-        // Options mostly share the joint's place; only what is their own counts.
+        // Options mostly share the joint's position; only their own coordinates count.
         for o in joint.offered() {
             let own = |a: &[Expr; 3], b: &[Expr; 3]| real(a) != real(b);
             if own(&o.frame.point, &joint.frame.point)
@@ -208,15 +212,16 @@ pub fn looks_rounded(mechanism: &Mechanism) -> Option<Rounded> {
     })
 }
 
-/// What the digits of a number say.
+/// Accuracy of a number according to its digits.
 struct Decimal {
-    /// Significant digits; none where what the number is worth is stated.
+    /// Significant digits, or `None` if the accuracy of the number is stated.
     digits: Option<usize>,
     /// One unit in the last place.
     unit: f64,
 }
 
-/// Of a decimal, of what has decimals of pi in it, and of what is stated not to be exact; `None` for all that is exact.
+/// Returns the accuracy of a decimal, of a number with decimals of pi, or of one with a stated uncertainty. Returns
+/// `None` for all exact numbers.
 fn decimal(expr: &Expr) -> Option<Decimal> {
     if expr.has_pi() {
         let places = i32::try_from(PI_DIGITS).unwrap_or(i32::MAX);
@@ -226,7 +231,7 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
         });
     }
     match expr.written() {
-        // The `.0` behind a whole number says nothing.
+        // The `.0` after a whole number has no meaning.
         WrittenNumber::Decimal(d) if d.end != End::Float => Some(Decimal {
             digits: Some(d.significant),
             unit: 2.0 * d.half,
@@ -239,7 +244,8 @@ fn decimal(expr: &Expr) -> Option<Decimal> {
     }
 }
 
-/// The significant digits of a number as a double, where they are so many that it was measured or computed.
+/// Returns the number of significant digits of a number as a double, if there are so many that it was measured or
+/// computed.
 fn measured(expr: &Expr) -> Option<usize> {
     match Expr::from_f64(expr.to_f64()).ok()?.written() {
         WrittenNumber::Decimal(d) => Some(d.significant).filter(|n| *n >= DIGITS),

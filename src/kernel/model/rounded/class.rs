@@ -1,24 +1,25 @@
-//! What the decimals of one kind, lengths or directions, say together of how they were written.
+//! Inference of how the decimals of one kind, lengths or directions, were written.
 
 use crate::geom::expr::{Digits, End, Expr, WrittenNumber, half_of};
 use num_traits::One;
 use std::collections::BTreeMap;
 
-/// Lengths with so many significant digits may have been rounded.
+/// Number of significant digits from which on lengths may have been rounded.
 pub const LONG_LENGTH: usize = 4;
-/// Components of directions with so many may.
+/// Number of significant digits from which on components of directions may have been rounded.
 pub const LONG_DIRECTION: usize = 3;
 
-/// So many long decimals without a trailing zero are no chance.
+/// Number of long decimals without a trailing zero that cannot be a coincidence.
 const MANY: usize = 10;
-/// A zero that is left out at the end of one decimal in ten makes its unit so much coarser.
+/// Factor on the unit of one decimal in ten if trailing zeros are dropped.
 const LOST: f64 = 10.5;
-/// One in so many of the long decimals have a number of places that they are rounded to; fewer have lost zeros.
+/// Minimum share of the long decimals, one in this many, for a number of places to count as the rounding. Fewer have
+/// lost zeros.
 const SHARE: usize = 5;
-/// A direction of decimals with fewer significant digits may have been chosen.
+/// Number of significant digits below which a direction of decimals may have been chosen.
 const FEW: usize = 3;
 
-/// What a number is.
+/// Kind of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum NumberKind {
     /// A length.
@@ -28,7 +29,7 @@ pub(super) enum NumberKind {
 }
 
 impl NumberKind {
-    /// How many significant digits a long one has.
+    /// Returns the minimum number of significant digits of a long number.
     fn least(self) -> usize {
         match self {
             NumberKind::Length => LONG_LENGTH,
@@ -37,33 +38,33 @@ impl NumberKind {
     }
 }
 
-/// The numbers of a kind as they are written, equal ones once.
+/// The numbers of a kind as written, with equal ones counted once.
 #[derive(Debug, Default)]
 pub(super) struct NumberClass {
-    /// Places of the decimals that are long, and of all that have digits behind the point, by size of the number.
+    /// Places of the long decimals, and of all with digits after the point, by size of the number.
     long: BTreeMap<u64, i32>,
     decimals: BTreeMap<u64, i32>,
-    /// Whether any shows a trailing zero.
+    /// Whether any has a trailing zero.
     zeros: bool,
     /// Whether any is a whole number other than 0.
     whole: bool,
-    /// Half the unit that most have.
+    /// Half the most common unit.
     most: Option<f64>,
 }
 
 impl NumberClass {
-    /// Takes in a direction: where it is not chosen, its decimals count as long however few digits they have.
+    /// Adds a direction. Unless it was chosen, its decimals count as long with any number of digits.
     pub(super) fn see_direction(&mut self, v: &[Expr]) {
         let least = if is_rounded(v) { 1 } else { LONG_DIRECTION };
         v.iter().for_each(|e| self.see_from(e, least));
     }
 
-    /// Takes in a number.
+    /// Adds a number.
     pub(super) fn see(&mut self, e: &Expr, kind: NumberKind) {
         self.see_from(e, kind.least());
     }
 
-    /// Takes in a number that is long from so many significant digits on.
+    /// Adds a number that is long from `least` significant digits on.
     fn see_from(&mut self, e: &Expr, least: usize) {
         let size = e.to_f64().abs();
         let digits = match e.written() {
@@ -75,7 +76,7 @@ impl NumberClass {
             WrittenNumber::No | WrittenNumber::Stated(_) => return,
         };
         self.zeros |= digits.end == End::Zero;
-        // Of equal numbers the one with the most digits says most.
+        // Among equal numbers, the one with the most digits is the most informative.
         let put = |map: &mut BTreeMap<u64, i32>| {
             let places = map.entry(size.to_bits()).or_insert(digits.places);
             *places = digits.places.max(*places);
@@ -86,22 +87,23 @@ impl NumberClass {
         }
     }
 
-    /// Whether any decimal is long.
+    /// Returns true if any decimal is long.
     pub(super) fn is_long(&self) -> bool {
         !self.long.is_empty()
     }
 
-    /// Whether any number is whole, and not 0.
+    /// Returns true if any number is whole and nonzero.
     pub(super) fn has_whole(&self) -> bool {
         self.whole
     }
 
-    /// Half the unit that most have: of the long ones, or of all where none is; the finer one of two that are as common.
+    /// Returns half the most common unit: of the long decimals, or of all if none is long. If two units are equally
+    /// common, the finer one counts.
     pub(super) fn commonest(&self) -> Option<f64> {
         self.most
     }
 
-    /// The same, when all numbers are taken in.
+    /// Returns the class after all numbers are added, with the most common unit computed.
     pub(super) fn counted(mut self) -> NumberClass {
         self.most = self.count();
         self
@@ -121,13 +123,13 @@ impl NumberClass {
         most.map(|(places, _)| half_of(places))
     }
 
-    /// Whether its writer leaves out zeros at the end.
+    /// Returns true if its writer drops trailing zeros.
     fn drops_zeros(&self) -> bool {
         !self.zeros && self.long.len() >= MANY
     }
 
-    /// Half the unit of a decimal of a vector, that of its own last digit; but a short one was chosen, and one that a finer vector
-    /// has beside it may have lost zeros: these have the unit of most.
+    /// Returns half the unit of a decimal of a vector, which is that of its last digit. A short decimal was chosen, and
+    /// one in a vector with a finer one may have lost zeros. These have the most common unit.
     fn decimal(&self, digits: Digits, of: &[Expr], kind: NumberKind) -> f64 {
         let (plain, factor) = (half_of(digits.places), digits.factor());
         let Some(most) = self.commonest() else {
@@ -149,25 +151,27 @@ impl NumberClass {
         let finest = finest.fold(f64::INFINITY, f64::min);
         let own = long(&digits) && {
             let lost = plain <= LOST * most && self.drops_zeros();
-            // Long decimals that are all as short as this were rounded together, and so were those that many are as short as.
+            // Long decimals that all have at most this many places were rounded together, and so were those as short as
+            // many others.
             let together = all.count() > 1 && finest > most;
             together || self.is_common(digits.places) || (kind == NumberKind::Direction && !lost)
         };
         match kind {
             _ if own => digits.half,
-            // One direction is written with one number of places.
+            // A direction is written with one number of places.
             NumberKind::Direction if finest.is_finite() => finest * factor,
             _ => plain.min(most) * factor,
         }
     }
 
-    /// Whether a fifth of the long decimals have so many places.
+    /// Returns true if a fifth of the long decimals have this many places.
     fn is_common(&self, places: i32) -> bool {
         let as_short = self.long.values().filter(|p| **p == places).count();
         as_short * SHARE >= self.long.len()
     }
 
-    /// Half the units of the coordinates of a point, or of one length; `turned` where directions are decimals.
+    /// Returns half the units of the coordinates of a point, or of one length. `turned` means that directions are
+    /// decimals.
     pub(super) fn lengths(&self, v: &[Expr], turned: bool) -> Vec<f64> {
         v.iter().map(|e| self.length(e, v, turned)).collect()
     }
@@ -191,7 +195,7 @@ impl NumberClass {
         }
     }
 
-    /// Half the unit of a long decimal; 0 of what is shorter, which was chosen.
+    /// Returns half the unit of a long decimal, or 0 for a shorter one, which was chosen.
     pub(super) fn of_long(&self, e: &Expr, kind: NumberKind) -> f64 {
         match e.written() {
             WrittenNumber::Decimal(d) if d.significant >= kind.least() && d.end != End::Float => {
@@ -201,7 +205,7 @@ impl NumberClass {
         }
     }
 
-    /// Half the units of the components of a direction, or of a quaternion.
+    /// Returns half the units of the components of a direction, or of a quaternion.
     pub(super) fn direction(&self, v: &[Expr]) -> Vec<f64> {
         let chosen = !self.drops_zeros() && is_chosen(v);
         let half = |e: &Expr| match e.written() {
@@ -221,19 +225,20 @@ fn digits_of(e: &Expr) -> Option<Digits> {
     }
 }
 
-/// Whether a direction is rounded, by what its components are together: two of them decimals at least, and not chosen.
+/// Returns true if a direction is rounded, judging by its components together: at least two of them are decimals, and
+/// they were not chosen.
 pub(super) fn is_rounded(v: &[Expr]) -> bool {
     v.iter().filter(|e| digits_of(e).is_some()).count() > 1 && !is_chosen(v)
 }
 
-/// Whether a direction of short decimals is as somebody chose it: of length 1 exactly, as (0.6, 0.8, 0) is, or not rounded from
-/// one of length 1, as (1.5, 2, 0).
+/// Returns true if a direction of short decimals was chosen by a person. It has length 1 exactly, as (0.6, 0.8, 0), or
+/// is not rounded from one of length 1, as (1.5, 2, 0).
 fn is_chosen(v: &[Expr]) -> bool {
     let short = |e: &Expr| digits_of(e).is_none_or(|d| d.significant < FEW);
     if !v.iter().all(short) {
         return false;
     }
-    // Who writes sqrt(3)/2 beside a half knows both.
+    // An author who writes sqrt(3)/2 next to a half knows both exactly.
     let calculated = |e: &Expr| e.written() == WrittenNumber::No && e.to_f64() != 0.0;
     if v.iter().any(calculated) {
         return true;

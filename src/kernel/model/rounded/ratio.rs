@@ -1,4 +1,4 @@
-//! Ratios that are written as decimals, and the fractions that are meant.
+//! Ratios written as decimals, and the fractions they intend.
 
 use crate::geom::expr::{End, Expr, WrittenNumber};
 use crate::model::joint_type::Coupling;
@@ -7,32 +7,32 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 
-/// A fraction that a random number is this likely to be so near to is no chance.
+/// Probability that a random number is this close to a fraction, below which the fraction is not a coincidence.
 const LIKELY: f64 = 0.1;
-/// Ratios with so many digits have them from somewhere.
+/// Number of digits from which on a ratio is not arbitrary.
 const LONG: usize = 4;
 
-/// A ratio that is hardly what it is written as.
+/// A ratio whose written value is doubtful.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
     /// Half a unit of its last digit.
     pub half: f64,
-    /// The simplest fraction within that.
+    /// The simplest fraction within that range.
     pub fraction: BigRational,
-    /// Whether that is so simple that it is no chance.
+    /// Whether it is so simple that it is not a coincidence.
     pub likely: bool,
 }
 
 impl Doubt {
-    /// The fraction, where it is no chance.
+    /// Returns the fraction if it is not a coincidence.
     #[must_use]
     pub fn simple(&self) -> Option<&BigRational> {
         Some(&self.fraction).filter(|_| self.likely)
     }
 }
 
-/// What is doubtful in a ratio: a decimal that is all but a simple fraction, -0.6667 for -2/3, or so long that it was rounded.
-/// None where it is a fraction or whole number, or the simplest number within its digits: -1.5, 0.125.
+/// Returns the doubt about a ratio: a decimal that is almost a simple fraction, -0.6667 for -2/3, or so long that it
+/// was rounded. Returns `None` for a fraction or whole number, or the simplest number within its digits: -1.5, 0.125.
 ///
 /// # Complexity
 /// O(digits) divisions.
@@ -65,14 +65,15 @@ pub fn doubt(ratio: &Expr) -> Option<Doubt> {
     })
 }
 
-/// The same of a coupling. Between a turn and a slide a ratio is a length, and only what is all but a simple fraction is doubted.
+/// Returns the doubt about the ratio of a coupling. Between a turn and a slide a ratio is a length, and it is doubtful
+/// only if it is almost a simple fraction.
 #[must_use]
 pub fn doubt_of(coupling: &Coupling) -> Option<Doubt> {
     let [a, b] = coupling.ends.map(|e| e.freedom.slides());
     doubt(&coupling.ratio).filter(|d| d.likely || a == b)
 }
 
-/// The fraction of the least denominator from one positive number to a greater one.
+/// Returns the fraction with the smallest denominator between one positive number and a larger one.
 ///
 /// # Sources
 /// Graham, Knuth & Patashnik, "Concrete Mathematics", 1994, 4.5: the Stern-Brocot tree, as continued fractions.

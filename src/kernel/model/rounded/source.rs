@@ -1,9 +1,9 @@
-//! How well numbers are known that are calculated from those of another file.
+//! Accuracy of numbers calculated from those of another file.
 
 use super::class::{NumberClass, NumberKind};
 use crate::geom::expr::Expr;
 
-/// The numbers that places are calculated from, as they are written.
+/// The numbers from which positions are calculated, as written.
 #[derive(Debug, Default)]
 pub struct Sources {
     /// Lengths.
@@ -17,17 +17,17 @@ pub struct Sources {
 /// The largest half units of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Largest {
-    /// Of lengths.
+    /// Half unit of lengths.
     pub length: f64,
-    /// Of directions of length 1.
+    /// Half unit of directions of length 1.
     pub direction: f64,
-    /// Of turns, in radians.
+    /// Half unit of turns, in radians.
     pub turn: f64,
 }
 
 impl Sources {
-    /// The largest half units of long decimals, each as [`uncertainties`](super::uncertainties) takes it; none where there is
-    /// none.
+    /// Returns the largest half units of long decimals, by the rules of [`uncertainties`](super::uncertainties), or
+    /// `None` if there are none.
     pub fn largest(&self) -> Option<Largest> {
         let (mut lengths, mut directions) = (NumberClass::default(), NumberClass::default());
         self.lengths
@@ -52,7 +52,7 @@ impl Sources {
             let most = halves.into_iter().fold(0.0, f64::max);
             if norm > 0.0 { most / norm } else { 0.0 }
         };
-        // Quaternions turn frames.
+        // Quaternions rotate frames.
         let quaternions = self.directions.iter().filter(|v| v.len() == 4);
         Some(Largest {
             length: largest(

@@ -1,4 +1,4 @@
-//! How well each number of a mechanism is known, by its last digit or by what is stated.
+//! Accuracy of each number of a mechanism, from its last digit or a stated uncertainty.
 
 use super::class::{NumberClass, NumberKind};
 use super::ratio::doubt_of;
@@ -8,60 +8,61 @@ use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Frame, Joint, Mechanism, Mode};
 use std::collections::BTreeMap;
 
-/// Half units of the numbers of a frame, in the file's own numbers; 0 where they are exact.
+/// Half units of the numbers of a frame, in the file's own numbers; 0 if they are exact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrameUncertainty {
-    /// Of its point, in the file's unit of length.
+    /// Half units of its point, in the file's unit of length.
     pub point: [f64; 3],
-    /// Of the components of its axis as they are written, of any length.
+    /// Half units of the components of its axis as written, of any length.
     pub axis: [f64; 3],
-    /// Of those of its reference.
+    /// Half units of the components of its reference.
     pub reference: [f64; 3],
-    /// Of its pitch, per radian.
+    /// Half unit of its pitch, per radian.
     pub pitch: f64,
 }
 
-/// Which numbers of a frame are the same: an index for each that is not exact, equal for numbers of one kind that are equal
-/// but for their sign.
+/// Identity of the numbers of a frame: an index for each inexact number. Numbers of one kind that are equal up to their
+/// sign have equal indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FrameNumbers {
-    /// Of its point.
+    /// Indices of its point.
     pub point: [Option<usize>; 3],
-    /// Of its axis.
+    /// Indices of its axis.
     pub axis: [Option<usize>; 3],
-    /// Of its reference.
+    /// Indices of its reference.
     pub reference: [Option<usize>; 3],
 }
 
-/// Half units of all numbers of a mechanism that may have been rounded, in the file's own numbers; 0 where they are exact.
+/// Half units of all numbers of a mechanism that may have been rounded, in the file's own numbers; 0 if they are exact.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Uncertainties {
-    /// Of the points, by joint, in the file's unit of length.
+    /// Half units of the points, by joint, in the file's unit of length.
     pub point: Vec<[f64; 3]>,
-    /// Of the components of the axes as they are written, by joint.
+    /// Half units of the components of the axes as written, by joint.
     pub axis: Vec<[f64; 3]>,
-    /// Of those of the references, by joint.
+    /// Half units of the components of the references, by joint.
     pub reference: Vec<[f64; 3]>,
-    /// Of the pitches per radian, by joint.
+    /// Half units of the pitches per radian, by joint.
     pub pitch: Vec<f64>,
-    /// Of the frames of what is offered, by joint, in the order of [`Joint::offered`](crate::model::mechanism::Joint::offered).
+    /// Half units of the frames of the options, by joint, in the order of
+    /// [`Joint::offered`](crate::model::mechanism::Joint::offered).
     pub option_frames: Vec<Vec<FrameUncertainty>>,
-    /// Of the points of interest.
+    /// Half units of the points of interest.
     pub points: Vec<[f64; 3]>,
-    /// Of the normal of the plane.
+    /// Half units of the normal of the plane.
     pub normal: [f64; 3],
-    /// Of the ratios of couplings that are doubted.
+    /// Half units of the doubtful ratios of couplings.
     pub ratios: Vec<f64>,
-    /// Which of the numbers of the joints are the same.
+    /// Identity of the numbers of the joints.
     pub numbers: Vec<FrameNumbers>,
-    /// How many numbers are not exact, of lengths and of directions, equal ones counted once.
+    /// Number of inexact lengths and directions, with equal ones counted once.
     pub distinct: [usize; 2],
-    /// Half the commonest unit of lengths and of components of directions; 0 where none is rounded.
+    /// Half the most common unit of lengths and of components of directions; 0 if none is rounded.
     pub half_unit: [f64; 2],
 }
 
 impl Uncertainties {
-    /// The same half units for all numbers of the joints: of lengths, and of directions of length 1.
+    /// Returns equal half units for all numbers of the joints: of lengths, and of directions of length 1.
     #[must_use]
     pub fn uniform(mechanism: &Mechanism, length: f64, direction: f64) -> Uncertainties {
         let joints = mechanism.joints.iter();
@@ -75,7 +76,7 @@ impl Uncertainties {
         }
     }
 
-    /// The largest half units of points, and of directions of length 1.
+    /// Returns the largest half units of points, and of directions of length 1.
     #[must_use]
     pub fn largest(&self, mechanism: &Mechanism) -> [f64; 2] {
         let most = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
@@ -90,30 +91,34 @@ impl Uncertainties {
     }
 }
 
-/// What the numbers of a mechanism say together.
+/// Conclusions from all numbers of a mechanism together.
 struct Reading {
     lengths: NumberClass,
     directions: NumberClass,
-    /// Whether any decimal is long, or any uncertainty stated.
+    /// Whether any decimal is long, or any uncertainty is stated.
     rounded: bool,
-    /// Whether the file is turned in space: most axes of its joints are decimals.
+    /// Whether the file is rotated in space: most axes of its joints are decimals.
     turned: bool,
     /// Indices of numbers by kind and size.
     seen: BTreeMap<(NumberKind, u64), usize>,
     distinct: [usize; 2],
 }
 
-/// Half units of all numbers; none where nothing looks rounded and nothing is stated.
+/// Returns the half units of all numbers, or `None` if nothing looks rounded and no uncertainty is stated.
 ///
-/// A number is known to half a unit of its last digit, trailing zeros counted; what is stated goes before. Expressions are
-/// exact. Of the decimals of a file one at least must be long, four significant digits of a length or three of a direction, or
-/// two in a direction that is of length 1 to within them and not exactly, or all are taken at their word.
+/// A number is accurate to half a unit of its last digit, including trailing zeros. A stated uncertainty has priority.
+/// Expressions are exact. At least one decimal of a file must be long, otherwise all decimals are taken exactly as
+/// written. A length is long with four significant digits, and a direction with three. Two are enough in a direction
+/// that has length 1 within them and not exactly.
 ///
-/// Where no long decimal of a kind shows a trailing zero, a number shorter than most may be chosen or have lost zeros. It then has
-/// the unit of most, or in a direction of the other components: a number of fewer digits than are long, a length that is as
-/// short as few others, and, of at least ten long decimals, a component one place shorter than the others. Whole numbers among the
-/// lengths and those that end in `.0` have the unit of most, too. Whole zeros, and whole numbers in directions, are exact; but where
-/// most axes are decimals and lengths are whole numbers, these are rounded to whole numbers.
+/// If no long decimal of a kind has a trailing zero, a number shorter than most may be chosen or have lost zeros. It
+/// then has the most common unit, or in a direction that of the other components. This applies to a number with fewer
+/// digits than a long one, and to a length that is as short as few others. With at least ten long decimals it also
+/// applies to a component one place shorter than the others.
+///
+/// Whole numbers among the lengths and those that end in `.0` also have the most common unit. Whole zeros, and whole
+/// numbers in directions, are exact. But if most axes are decimals and lengths are whole numbers, these are rounded to
+/// whole numbers.
 ///
 /// # Complexity
 /// O(n log n) for n numbers.
@@ -150,7 +155,7 @@ pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
     Some(out)
 }
 
-/// Whether a number is whole as it is written.
+/// Returns true if a number is written as a whole number.
 fn is_whole(e: &Expr) -> bool {
     match e.written() {
         WrittenNumber::Whole => true,
@@ -159,7 +164,8 @@ fn is_whole(e: &Expr) -> bool {
     }
 }
 
-/// Whether more of the axes have decimals than whole numbers alone. What is offered says nothing of how a file is turned.
+/// Returns true if more of the axes have decimals than only whole numbers. Options give no information on how a file is
+/// rotated.
 fn is_turned(mechanism: &Mechanism) -> bool {
     let axes = mechanism.joints.iter();
     let axes = axes.filter(|j| j.joint_type.is_directed());
@@ -208,7 +214,7 @@ impl Reading {
         }
     }
 
-    /// Half the units that most numbers have.
+    /// Returns half the units that most numbers have.
     fn half_units(&self) -> [f64; 2] {
         if !self.rounded {
             return [0.0; 2];
