@@ -1,5 +1,6 @@
-//! Mobility and redundant constraints: of the whole, contour by contour, and of the clamped object; which links idle;
-//! what an over-constrained assembly is stressed with. The figures in short, for tables of many, stand here.
+//! Mobility and redundant constraints: of the whole mechanism, contour by contour, and of the clamped part. Also idle
+//! links, and the self-stresses of an overconstrained assembly. This module has the short figures for tables of many
+//! mechanisms.
 
 pub mod analysis;
 pub mod contour_shares;
@@ -28,20 +29,20 @@ use crate::rank::numeric::NumericError;
 use crate::redundancy::external::present_links;
 use thiserror::Error;
 
-/// Why an analysis failed.
+/// Reason why an analysis failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
     /// The geometry has no image in a prime field.
     #[error(transparent)]
     Exact(#[from] ExactError),
-    /// No singular values.
+    /// The singular values could not be computed.
     #[error(transparent)]
     Numeric(#[from] NumericError),
     /// The automatic choice failed.
     #[error(transparent)]
     Auto(#[from] NoAnswer),
-    /// A certificate proves another rank than primes gave.
+    /// A certificate proves a rank other than that modulo primes.
     #[error(
         "the rank of state {state} is {rank} modulo two primes, but a checked certificate proves {proven}; report this with the file"
     )]
@@ -50,7 +51,7 @@ pub enum AnalysisError {
         state: String,
         /// The rank modulo primes.
         rank: usize,
-        /// The rank that is proven.
+        /// The proven rank.
         proven: usize,
     },
     /// Two primes gave different ranks.
@@ -60,16 +61,16 @@ pub enum AnalysisError {
     Disagree {
         /// The state.
         state: String,
-        /// One prime.
+        /// The first prime.
         first: u64,
-        /// The other.
+        /// The second prime.
         second: u64,
         /// Their ranks.
         ranks: [usize; 2],
     },
 }
 
-/// What a state is in numbers.
+/// Figures of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StateFigures {
     /// Links, n.
@@ -86,13 +87,13 @@ pub struct StateFigures {
     pub redundant: usize,
 }
 
-/// The figures of a state.
+/// Returns the figures of a state.
 ///
 /// # Guarantee
-/// The rank is modulo one prime near 2^61; an analysis asks two and proves it.
+/// The rank is modulo one prime near 2^61; an analysis uses two and proves it.
 ///
 /// # Errors
-/// Where the geometry has no exact image.
+/// Returns an error if the geometry has no exact image.
 pub fn figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
     let exact = field_of(mechanism, state, 0)?;
     let closure = Closure::new(&exact, mechanism, state)?;

@@ -26,20 +26,20 @@ use crate::redundancy::measured::Measured;
 use crate::redundancy::motion::{motions, outputs, span_of_links};
 use crate::redundancy::stress::{SelfStress, self_stresses};
 
-/// How the rank is found.
+/// Method for the rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     /// The cheapest that is certain, see [`decide`].
     Auto,
-    /// Modulo two primes, every digit taken at its word.
+    /// Modulo two primes, with every digit taken exactly as written.
     Modular,
     /// In floating point, with a relative tolerance.
     Numeric(Elimination, f64),
 }
 
 impl Method {
-    /// The way to the rank that a method from the list of all names, with a tolerance other than what suits it where
-    /// it is in floating point; `None` for one that gives a mobility alone.
+    /// Returns the rank method for a method from the list of all names. `tolerance` replaces the default in floating
+    /// point. Returns `None` for a method that only gives a mobility.
     #[must_use]
     pub fn of(method: &dyn MobilityMethod, tolerance: Option<f64>) -> Option<Method> {
         match method.about().rank {
@@ -60,62 +60,63 @@ impl Method {
 pub struct StateAnalysis {
     /// Name of the state.
     pub state: String,
-    /// n, links with a joint in this state.
+    /// n, the number of links with a joint in this state.
     pub links: usize,
-    /// p.
+    /// p, the number of joints.
     pub joints: usize,
-    /// k.
+    /// k, the number of contours.
     pub contours: usize,
-    /// f.
+    /// f, the number of freedoms.
     pub freedoms: usize,
-    /// Rows of J, 6k or 3k and one for each coupling.
+    /// Number of rows of J, 6k or 3k and one for each coupling.
     pub rows: usize,
     /// Rank of J.
     pub rank: usize,
     /// W = f - rank, instantaneous.
     pub mobility: usize,
-    /// The mobility that is really there, and how that is known.
+    /// The finite mobility and the evidence for it.
     pub finite: Finite,
     /// Dimension of the output links' joint motion.
     pub working_mobility: usize,
     /// Dimension of the motions that leave every output at rest.
     pub local_mobility: usize,
-    /// What is wrong with the drives, where J has the exact rank.
+    /// Faults of the drives, if J has the exact rank.
     pub drives: Vec<DriveFault>,
     /// σ = 6k + c - rank for c couplings.
     pub redundant: usize,
-    /// W by Malyshev's formula, 6(n-1) - Σ constraints (3(n-1) - Σ in a plane) less the couplings: right only where σ = 0.
+    /// W by Malyshev's formula, 6(n-1) - Σ constraints (3(n-1) - Σ in a plane) less the couplings: right only if σ = 0.
     pub formula_mobility: i64,
-    /// The rows of J that are enough for its rank; none where singular values say otherwise than exact elimination.
+    /// The rows of J that are enough for its rank, or `None` if singular values disagree with exact elimination.
     pub least_rows: Option<LeastRows>,
     /// Shares of the contours, in the order used.
     pub per_contour: Vec<ContourShare>,
     /// Shares of the couplings, which come after the contours.
     pub per_coupling: Vec<CouplingShare>,
-    /// What the state adds to the free one.
+    /// Constraints that the state adds to the free one.
     pub external: Option<External>,
-    /// Links that move while every output rests.
+    /// Links that move while every output is at rest.
     pub idle: Vec<Idle>,
     /// A basis of the self-stresses.
     pub self_stresses: Vec<SelfStress>,
-    /// Joints with freedoms that planar mode leaves out.
+    /// Joints with freedoms that planar mode omits.
     pub left_out: Vec<(JointId, usize)>,
-    /// The name of the method that the rank is by.
+    /// The name of the method used for the rank.
     pub method: &'static str,
-    /// How sure the rank is.
+    /// Certainty of the rank.
     pub certainty: Certainty,
-    /// What the automatic choice was, why, and what was left out.
+    /// The automatic choice, the reason, and what was omitted.
     pub choice: Option<String>,
-    /// What was snapped in measured geometry, a sentence each.
+    /// Descriptions of snapped relations in measured geometry, one sentence each.
     pub snapped: Vec<String>,
-    /// The rank with every digit taken at its word, where that differs.
+    /// The rank with every digit taken exactly as written, if it differs.
     pub as_written: Option<usize>,
-    /// The mechanism that the figures are of, where it was snapped.
+    /// The mechanism that the figures describe, if it was snapped.
     pub meant: Option<Box<Mechanism>>,
 }
 
 impl StateAnalysis {
-    /// The most that W and σ can be, where rounded coordinates leave them undecided; the figures are the least then.
+    /// Returns the upper bounds of W and σ if rounded coordinates leave them undecided. The figures are then the lower
+    /// bounds.
     #[must_use]
     pub fn at_most(&self) -> Option<(usize, usize)> {
         match self.certainty {
@@ -128,7 +129,8 @@ impl StateAnalysis {
 /// Analyses the given states.
 ///
 /// # Errors
-/// Where the geometry has no exact image, the singular values fail, two primes disagree, or a certificate proves another rank.
+/// Returns an error if the geometry has no exact image, the singular values fail, two primes disagree, or a certificate
+/// proves another rank.
 pub fn analyse(
     mechanism: &Mechanism,
     states: &[StateId],
@@ -148,7 +150,7 @@ pub fn analyse(
         .collect()
 }
 
-/// By the automatic choice.
+/// Analyses a state by the automatic choice.
 fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, AnalysisError> {
     let Decision {
         verdict,
@@ -175,7 +177,7 @@ fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, Analys
                     state,
                     Elimination::Svd,
                     found,
-                    // What was found is as good as doubles.
+                    // The geometry found has the accuracy of doubles.
                     NEAR,
                     Some(finite),
                 )?
@@ -201,7 +203,7 @@ fn chosen(mechanism: &Mechanism, state: StateId) -> Result<StateAnalysis, Analys
     })
 }
 
-/// Returns the mechanism that was snapped, and what was understood.
+/// Returns the snapped mechanism, and the recovered relations.
 fn snapped(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
     match meant {
         Meant::Snapped {
@@ -213,7 +215,8 @@ fn snapped(meant: Meant) -> (Option<Box<Mechanism>>, Vec<String>) {
     }
 }
 
-/// By a floating-point rank; where it differs from the exact one, all else comes from singular values.
+/// Analyses a state by a floating-point rank. If it differs from the exact one, everything else comes from singular
+/// values.
 fn numerically(
     mechanism: &Mechanism,
     state: StateId,
@@ -260,8 +263,8 @@ fn numerically(
     })
 }
 
-/// What a state adds to the free one by singular values, where exact ranks say `e`; none where ranks of the two contradict each
-/// other.
+/// Returns the constraints that a state adds to the free one by singular values, given the exact result `e`. Returns
+/// `None` if the ranks of the two contradict each other.
 fn external_by(
     mechanism: &Mechanism,
     tolerance: f64,
@@ -285,24 +288,24 @@ fn external_by(
         by_rank: int(redundant) - int(free_redundant),
         ..*e
     };
-    // Ranks of two states at a tolerance may contradict each other; then neither is told.
+    // Ranks of two states at a tolerance may contradict each other. Neither is reported then.
     Ok(Some(found).filter(|x| x.redundant == x.by_rank))
 }
 
-/// Singular values of a geometry that was moved until it has a rank, below this part of the largest, are zero.
+/// Share of the largest singular value below which values are zero, for a geometry that was moved until it has a rank.
 const NEAR: f64 = 1e-9;
 
-/// Elementary operations spent on a certificate before an analysis does without: some tenths of a second.
+/// Maximum number of elementary operations for a certificate within an analysis: a few tenths of a second.
 const CERTIFICATE: Budget = Budget {
     coordinates: 100_000,
     primes: 60,
     operations: 50_000_000,
 };
 
-/// Returns whether the rank has a certificate in characteristic 0, made and checked here.
+/// Returns true if the rank has a certificate in characteristic 0, made and checked here.
 ///
 /// # Errors
-/// [`AnalysisError::Refuted`] where the certificate proves another rank.
+/// Returns [`AnalysisError::Refuted`] if the certificate proves another rank.
 fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> Result<bool, AnalysisError> {
     match certificate::certify_within(mechanism, state, CERTIFICATE) {
         Err(_) => Ok(false),
@@ -315,14 +318,14 @@ fn proven(mechanism: &Mechanism, state: StateId, rank: usize) -> Result<bool, An
     }
 }
 
-/// How sure a rank by the first of two fields is, which that by the other must be too.
+/// Returns the certainty of a rank by the first of two fields, after checking it with the second.
 fn certainty(
     mechanism: &Mechanism,
     state: StateId,
     fields: &[ExactField; 2],
     rank: usize,
 ) -> Result<Certainty, AnalysisError> {
-    // That was one of the rows that are enough, this is one of all.
+    // The first rank used the rows that are enough, this one uses all.
     let [_, other] = fields;
     let ranks = [
         rank,
@@ -338,7 +341,7 @@ fn certainty(
             ranks,
         });
     }
-    // A certificate would be of the digits that stand for π.
+    // A certificate would apply to the digits used for π.
     Ok(if !mechanism.has_pi() && proven(mechanism, state, rank)? {
         Certainty::Proven { primes }
     } else {
@@ -346,7 +349,8 @@ fn certainty(
     })
 }
 
-/// On exact geometry; `known` is the finite mobility where it was found already, since following a motion takes the most.
+/// Analyses a state with exact geometry. `known` is the finite mobility if it was already found, because following a
+/// motion takes the most time.
 fn exactly(
     mechanism: &Mechanism,
     state: StateId,
@@ -377,7 +381,7 @@ fn exactly(
         &finite,
     );
     let mut idle = idle_motions(exact, mechanism, &closure, &kernel, &outputs);
-    // What a drive moves at a dead point moves the outputs elsewhere.
+    // A motion of a drive at a dead point moves the outputs in other poses.
     if drives.contains(&DriveFault::DeadPoint) {
         let driven = || mechanism.joints.iter().filter(|j| j.drive);
         idle.retain(|i| !driven().any(|j| j.links.iter().any(|l| i.links.contains(l))));

@@ -1,4 +1,4 @@
-//! How the redundant constraints are shared out among the contours.
+//! Distribution of the redundant constraints among the contours.
 
 use crate::closure::Closure;
 use crate::closure::contour::Contour;
@@ -15,25 +15,25 @@ pub struct ContourShare {
     pub contour: Contour,
     /// σ_i when contours are added in the order reported.
     pub redundant: usize,
-    /// Least and greatest σ_i over all orders of the contours given.
+    /// Smallest and largest σ_i over all orders of the given contours.
     pub range: (usize, usize),
-    /// The greatest σ_i over all bases of contours that this one is part of: what some basis reaches, and what none exceeds.
-    /// The least is that of `range`.
+    /// The largest σ_i over all bases of contours that include this one, as a value reached and an upper bound. The
+    /// smallest is that of `range`.
     pub over_bases: (usize, usize),
 }
 
-/// The redundant constraint that a coupling is, or not.
+/// Whether a coupling is a redundant constraint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CouplingShare {
     /// Names of the two freedoms, as the file writes them.
     pub name: String,
-    /// 1 where the contours and the couplings before it imply it already, else 0.
+    /// 1 if the contours and earlier couplings already imply it, otherwise 0.
     pub redundant: usize,
-    /// 1 where all else implies it, else 0: the greatest over all orders. Alone it never is redundant.
+    /// 1 if all other constraints imply it, otherwise 0: the maximum over all orders. On its own it is never redundant.
     pub most: usize,
 }
 
-/// Shares of the couplings, which come after all contours.
+/// Returns the shares of the couplings, which come after all contours.
 ///
 /// # Complexity
 /// As [`shares`].
@@ -61,27 +61,27 @@ pub(crate) fn coupling_shares(
         .collect()
 }
 
-/// σ_i of each contour in the order of the basis, and its range over all orders.
+/// Returns σ_i of each contour in the order of the basis, and its range over all orders.
 ///
-/// Adding a contour to more contours never adds more rank (rank is submodular), so σ_i is least when the contour is
-/// added first and greatest when it is added last: no order need be tried. And all of it can be read off one basis of
-/// the self-stresses, the left kernel of J:
-/// - those within the first i contours are the left kernel of the first i contours' rows, so σ_i in the order given is
-///   the number of vectors of an echelon basis that end in contour i;
-/// - those without contour i are the left kernel of the other rows, so the greatest σ_i is the dimension of what the
-///   basis has in the rows of contour i;
-/// - the least is the number of rows less the rank of the contour's own columns.
+/// Adding a contour to more contours never adds more rank, because rank is submodular. So σ_i is smallest if the
+/// contour is added first and largest if it is added last, and no order has to be tried. All of it follows from one
+/// basis of the self-stresses, the left kernel of J:
+/// - Those within the first i contours are the left kernel of the first i contours' rows. So σ_i in the given order is
+///   the number of vectors of an echelon basis that end in contour i.
+/// - Those without contour i are the left kernel of the other rows. So the largest σ_i is the dimension of the basis
+///   restricted to the rows of contour i.
+/// - The smallest is the number of rows less the rank of the contour's own columns.
 ///
 /// # Complexity
-/// One elimination of J by rows, then O(σ·k) to look at the basis and an elimination of at most `dim` independent rows
-/// per contour; k + 2 eliminations of J by the definition.
+/// One elimination of J by rows, then O(σ·k) to examine the basis and an elimination of at most `dim` independent rows
+/// per contour. By the definition it would be k + 2 eliminations of J.
 #[must_use]
 pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShare> {
     let dim = closure.dim;
     let stresses = stress_basis(exact, closure);
     let mut ending = vec![0; closure.contours.len()];
     for s in &stresses {
-        // Those that end in the row of a coupling are the coupling's.
+        // A self-stress that ends in the row of a coupling belongs to the coupling.
         let last = s.iter().rposition(|&x| x != 0);
         if let Some(of) = last.and_then(|last| ending.get_mut(last / dim)) {
             *of += 1;
@@ -130,7 +130,7 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
         .collect()
 }
 
-/// What a self-stress has in the contours' rows, times these weights and summed.
+/// Returns the parts of a self-stress in the contours' rows, times these weights and summed.
 fn combined(exact: &ExactField, stress: &[Residue], weights: &[i64], dim: usize) -> Vec<Residue> {
     let field = exact.field();
     let mut sum = vec![0; dim];
@@ -143,16 +143,18 @@ fn combined(exact: &ExactField, stress: &[Residue], weights: &[i64], dim: usize)
     sum
 }
 
-/// The greatest σ_i of a contour over all bases that it is part of: what one reaches, and what none exceeds. `greatest` is that
-/// of the basis given, and `carried` the dimension of what self-stresses have in a combination of the contours' rows.
+/// Returns the largest σ_i of a contour over all bases that include it, as a value reached and an upper bound.
+/// `greatest` is that of the given basis. `carried` returns the dimension of the self-stresses in a combination of the
+/// contours' rows.
 ///
-/// In another basis with contour i, a self-stress has in the rows of i the sum of what it has in those of contour j times the
-/// coefficient of i in j. A joint of i gives such coefficients, 1, -1 or 0 as contour j passes it the same way, the other or
-/// not at all: those of the bases whose other contours leave it out, where σ_i is what the joint bears. Any coefficients at
-/// all, here random ones, give no less than those of any basis.
+/// In another basis with contour i, the rows of i hold a sum over the contours j. Each term is the part of the
+/// self-stress in the rows of j, times the coefficient of i in j. A joint of i gives such coefficients: 1, -1 or 0 if
+/// contour j passes it in the same direction, in the other, or not at all. They belong to the bases whose other
+/// contours do not contain the joint, and σ_i there is the dimension of its loads. Any coefficients, here random ones,
+/// give at least the value of every basis.
 ///
 /// # Complexity
-/// At most one question for each joint of the contour, and one more.
+/// At most one call for each joint of the contour, and one more.
 pub(crate) fn over_bases(
     contours: &[Contour],
     i: usize,
@@ -182,7 +184,7 @@ pub(crate) fn over_bases(
     (reached, most.max(reached))
 }
 
-/// Numbers that no geometry knows, of either sign and at most some thousand.
+/// Returns numbers unrelated to the geometry, of either sign and up to about a thousand.
 fn scattered(n: usize) -> i64 {
     let mixed = (n as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     i64::try_from(mixed >> 53).unwrap_or(1) - 1023

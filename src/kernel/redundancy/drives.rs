@@ -1,4 +1,4 @@
-//! What a designer has to know of the drives of a mechanism: which are locked, which fight, and where the outputs stand still.
+//! Faults of the drives of a mechanism: locked drives, drives that fight each other, and outputs at rest.
 
 use crate::closure::Closure;
 use crate::geom::exact::ExactField;
@@ -15,25 +15,26 @@ pub enum DriveFault {
     Immobile,
     /// There are more drives than the mechanism has degrees of freedom, so that they work against each other.
     Surplus {
-        /// How many drives there are.
+        /// Number of drives.
         drives: usize,
-        /// How many degrees of freedom there are at most.
+        /// Upper bound of the number of degrees of freedom.
         mobility: usize,
     },
     /// The speeds of the drives that move depend on each other.
     Dependent {
-        /// How many drives move.
+        /// Number of drives that move.
         drives: usize,
-        /// How many of their speeds are independent.
+        /// Number of independent speeds.
         independent: usize,
     },
     /// A drive cannot move in this pose.
     Locked(JointId),
-    /// The outputs stand still to first order while a drive moves.
+    /// The outputs are at rest to first order while a drive moves.
     DeadPoint,
 }
 
-/// Returns the faults of the drives of the free state with these motions, J x = 0, of which the outputs have `working` independent ones.
+/// Returns the faults of the drives of the free state with these motions, J x = 0, of which the outputs have `working`
+/// independent ones.
 ///
 /// # Complexity
 /// O(d² w) field operations for d drives and w motions.
@@ -50,7 +51,7 @@ pub(super) fn drive_faults(
         joint.drive && joint.driven_freedom() == Some(c.freedom)
     });
     let driven: Vec<(usize, JointId)> = driven.map(|(i, c)| (i, c.joint)).collect();
-    // Clamped, a drive is meant to be locked.
+    // If the part is clamped, a drive is intended to be locked.
     if driven.is_empty() || closure.state != StateId::FREE {
         return Vec::new();
     }

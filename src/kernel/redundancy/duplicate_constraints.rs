@@ -1,4 +1,5 @@
-//! What a mechanism holds twice: each redundant constraint by name, where it holds over the motion, and what removes it.
+//! The redundant constraints of a mechanism: each by name, whether it holds over the motion, and the releases that
+//! remove it.
 
 use crate::closure::tree::spanning_tree;
 use crate::geom::vector::{Vector, cross, length, real, unit};
@@ -14,7 +15,7 @@ use crate::redundancy::other_poses::{Where, redundant_where};
 use crate::redundancy::release::{Duplicate, Release};
 use crate::redundancy::stressed::Stressed;
 
-/// Relative singular values that count as zero where no rounding is known of.
+/// Relative singular values below this count as zero if no rounding is known.
 const FLAT: f64 = 1e-9;
 
 /// The redundant constraints of a free state.
@@ -22,21 +23,23 @@ const FLAT: f64 = 1e-9;
 pub struct HeldTwice {
     /// Its analysis.
     pub analysis: StateAnalysis,
-    /// Where σ holds; none where nothing is redundant.
+    /// Poses in which σ holds, or `None` if nothing is redundant.
     pub over: Option<Where>,
-    /// How many are redundant over the motion, as far as is known: the others are so at this pose only, and no release is for
-    /// them. As many as are redundant where that is not decided.
+    /// Number of constraints that are redundant over the motion, as far as is known. The others are redundant at this
+    /// pose only, and have no releases. If undecided, this is the number of all.
     pub lasting: usize,
-    /// Each redundant constraint, those over the motion first; none where they cannot be told apart.
+    /// Each redundant constraint, those over the motion first. Empty if they cannot be identified.
     pub list: Vec<Duplicate>,
-    /// Releases that were looked at, with their costs in thousandths.
+    /// Releases that were examined, with their costs in thousandths.
     pub releases: Vec<(i64, Release)>,
-    /// The places among them of the cheapest set that removes all that last and lets nothing move; fewer where there is none.
+    /// Indices of the cheapest set of releases that removes all lasting redundant constraints and adds no mobility.
+    /// Fewer if there is no such set.
     pub cheapest: Vec<usize>,
 }
 
 impl HeldTwice {
-    /// Least and greatest number of redundant constraints: the same but where rounded coordinates leave it open.
+    /// Returns the smallest and largest number of redundant constraints. They are equal unless rounded coordinates
+    /// leave it open.
     #[must_use]
     pub fn range(&self) -> (usize, usize) {
         let least = self.analysis.redundant;
@@ -46,7 +49,8 @@ impl HeldTwice {
         )
     }
 
-    /// Tells where σ holds. Where fewer are redundant at a further pose, those are the ones that last, and the pose is given.
+    /// Determines where σ holds. If fewer constraints are redundant at a further pose, those are the lasting ones, and
+    /// the pose is returned.
     fn look_elsewhere(
         &mut self,
         geometry: &Mechanism,
@@ -66,8 +70,9 @@ impl HeldTwice {
         Ok(pose)
     }
 
-    /// Adds the redundant constraints of a part: those that last, and those of this pose only. `elsewhere` is another pose with
-    /// fewer of them, and the same part there; `None` for the part if it has no redundant constraints there.
+    /// Adds the redundant constraints of a part: the lasting ones, and those of this pose only. `elsewhere` is another
+    /// pose with fewer of them, and the same part there. It is `None` for the part if it has no redundant constraints
+    /// there.
     fn add(
         &mut self,
         m: &Mechanism,
@@ -82,7 +87,8 @@ impl HeldTwice {
                 (part.redundant(), here, built)
             }
             Some((_, None)) => (0, Vec::new(), Vec::new()),
-            // What lasts is told where it is all there is, and taken back to this pose.
+            // Lasting constraints are identified in the other pose, which has no others, and converted back to this
+            // pose.
             Some((pose, Some(there))) => {
                 let [theirs, releases] = find(there);
                 let built = as_built(m, there, &releases);
@@ -106,18 +112,19 @@ impl HeldTwice {
     }
 }
 
-/// Finds what is held twice. `closes` says which joints are there to close loops, `may` what may be let go, `inside` which poses
-/// are within the limits of the joints; where there is none of that, only this pose is looked at.
+/// Finds the redundant constraints. `closes` says which joints exist to close loops, `may` which releases are allowed,
+/// and `inside` which poses are within the limits of the joints. Without `inside`, only this pose is examined.
 ///
 /// # Guarantee
-/// σ is as the analysis says. What is redundant of each loop is numeric; there are other choices of as many constraints. What is
-/// redundant at this pose only is told by some further poses, where nothing is proven.
+/// σ is as the analysis says. The choice of redundant constraints of each loop is numeric, and there are other choices
+/// of as many constraints. Redundancy at this pose only is determined from a few further poses, if nothing is proven.
 ///
 /// # Errors
-/// As [`analyse`].
+/// Returns an error in the same cases as [`analyse`].
 ///
 /// # Complexity
-/// That of an analysis, two decompositions of J and, where nothing is proven, some tens of closings. An analysis alone where σ = 0.
+/// That of an analysis, two decompositions of J and, if nothing is proven, a few tens of closures. Only an analysis if
+/// σ = 0.
 pub fn held_twice(
     m: &Mechanism,
     closes: &dyn Fn(JointId) -> bool,
@@ -179,8 +186,8 @@ pub fn held_twice(
     Ok(out)
 }
 
-/// Returns below what share of the largest a singular value counts as zero, and the relative error of coordinates, 0 where they
-/// are exact.
+/// Returns the share of the largest singular value below which values count as zero, and the relative error of
+/// coordinates, 0 if they are exact.
 fn errors(meant: &RankVerdict) -> [f64; 2] {
     let accuracy = match meant.meant {
         Meant::AsWritten | Meant::Snapped { .. } => 0.0,
@@ -189,7 +196,8 @@ fn errors(meant: &RankVerdict) -> [f64; 2] {
     [tolerance(meant), accuracy]
 }
 
-/// Relative singular values that count as zero: between what is kept and what is dropped, where coordinates are rounded.
+/// Returns the relative singular value below which values count as zero: between the kept and the dropped ones, if
+/// coordinates are rounded.
 fn tolerance(meant: &RankVerdict) -> f64 {
     let gap = meant
         .numeric
@@ -197,7 +205,7 @@ fn tolerance(meant: &RankVerdict) -> f64 {
     gap.max(FLAT)
 }
 
-/// A release at a moved pose in the pose of the file.
+/// Converts a release at a moved pose to the pose of the file.
 fn taken_back(m: &Mechanism, pose: &Pose, release: &Release) -> Release {
     match *release {
         Release::Coupling(q) => Release::Coupling(q),
@@ -213,18 +221,19 @@ fn taken_back(m: &Mechanism, pose: &Pose, release: &Release) -> Release {
     }
 }
 
-/// A direction of a moved pose in the pose of the file, as a multiple of 1e-9, so that rounding errors of the way back are none.
+/// Converts a direction of a moved pose to the pose of the file, as a multiple of 1e-9, which removes rounding errors.
 fn settled_back(m: &Mechanism, pose: &Pose, joint: JointId, direction: Vector) -> Vector {
     let d = turned_back(pose, m.joints[joint].links[0], direction);
     unit(d.map(|x| (x * 1e9).round() / 1e9 + 0.0))
 }
 
-/// Before all others.
+/// Cost rank before all others.
 const FIRST: i64 = -1;
 
 type Costed = Vec<(i64, Release)>;
 
-/// The constraints that self-stresses load, by the order in which they are told of, and what may be let go, by its cost.
+/// Returns the constraints that self-stresses load, in the order of the report, and the allowed releases with their
+/// costs.
 fn candidates(
     m: &Mechanism,
     stressed: &Stressed<'_>,
@@ -250,17 +259,19 @@ fn candidates(
     [rows, releases]
 }
 
-/// More for a slide at a joint that has got one, for each: a ball on three slides holds nothing.
+/// Additional cost of each further slide at a joint: a ball on three slides constrains nothing.
 const SLIDES: i64 = 3000;
-/// Less for a turn at a hinge that has got one: it becomes a ball, and no second joint changes.
+/// Cost reduction of a turn at a hinge that already has one: it becomes a ball, and no second joint changes.
 const BALL: i64 = -500;
-/// More for a slide at a joint that got a turn, and the other way round: a ball and a cylindrical joint are two joints.
+/// Additional cost of a slide at a joint with a new turn, and vice versa: a ball and a cylindrical joint are two
+/// joints.
 const BOTH: i64 = 500;
-/// More at the joint that bears a link whose motion is wanted, such as a wheel or a hand: it would yield where it is loaded.
+/// Additional cost at the joint that supports a link with a wanted motion, such as a wheel or a hand: it would yield
+/// under load.
 const BEARING: i64 = 1500;
 
-/// The releases that one would build: of those that cost about the same, one cylindrical joint and one ball a loop, in the middle
-/// of it.
+/// Returns the practical releases: of those with about the same cost, one cylindrical joint and one ball per loop, in
+/// its middle.
 fn as_built(m: &Mechanism, stressed: &Stressed<'_>, candidates: &[(i64, Release)]) -> Vec<usize> {
     let tree = spanning_tree(m, StateId::FREE);
     let bears = |j: JointId| {
@@ -290,10 +301,10 @@ fn as_built(m: &Mechanism, stressed: &Stressed<'_>, candidates: &[(i64, Release)
     })
 }
 
-/// Cost of taking a coupling away.
+/// Cost of removing a coupling.
 const COUPLING: i64 = 500;
 
-/// What a release costs, in thousandths of a revolute joint: a pin that may slide is the cheapest.
+/// Returns the cost of a release, in thousandths of a revolute joint. A pin that may slide is the cheapest.
 fn cost(m: &Mechanism, release: &Release, closes: bool) -> i64 {
     let Release::Freedom {
         joint,

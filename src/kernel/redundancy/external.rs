@@ -1,4 +1,4 @@
-//! The external constraints: what a clamped object, or any other state, adds to the free mechanism.
+//! The external constraints that a clamped part, or any other state, adds to the free mechanism.
 
 use crate::closure::Closure;
 use crate::geom::exact::{ExactError, ExactField};
@@ -12,13 +12,13 @@ use serde::Serialize;
 /// The external constraints of a state, counted and by rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct External {
-    /// Σα: constraints of the joints that the state adds, and their couplings, less those of the joints it leaves out.
+    /// Σα: constraints of the joints that the state adds, and their couplings, less those of the joints it omits.
     pub constraints: i64,
-    /// W_a: mobility with the object absent.
+    /// W_a: mobility without the clamped part.
     pub actual_mobility: i64,
-    /// W_r: mobility of the mechanism's own joints with the object present.
+    /// W_r: mobility of the mechanism's own joints with the clamped part.
     pub working_mobility: i64,
-    /// w_a: mobilities the added bodies lost.
+    /// w_a: mobilities that the added bodies lose.
     pub lost_mobility: i64,
     /// σ_a by the external formula, Σα - (W_a - W_r) - w_a.
     pub redundant: i64,
@@ -27,7 +27,7 @@ pub struct External {
     pub by_rank: i64,
 }
 
-/// What the state of `closure` adds; `kernel` is a basis of its motions.
+/// Returns the external constraints of the state of `closure`; `kernel` is a basis of its motions.
 pub(super) fn external(
     exact: &ExactField,
     mechanism: &Mechanism,

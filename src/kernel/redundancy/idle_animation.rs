@@ -1,7 +1,8 @@
-//! An idle freedom as a motion to be seen: to and fro by a little, along the motion that the analysis lists.
+//! An idle freedom as a visible motion: back and forth by a small amount, along the motion that the analysis lists.
 //!
-//! The analysis knows idle motions modulo a prime, where numbers have no size; here the same motions are found among the
-//! null vectors of J by the links that rest in them, and closed by Newton's method where a real motion follows them.
+//! The analysis finds idle motions modulo a prime, where numbers have no size. Here the same motions are found among
+//! the null vectors of J by the links at rest in them. They are closed by Newton's method if a finite motion follows
+//! them.
 
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
@@ -13,30 +14,31 @@ use crate::redundancy::local_mobility::Idle;
 use ozols_dense::svd;
 use std::f64::consts::TAU;
 
-/// The largest coordinate of a wiggle: radians, or fractions of [`Pose::length`].
+/// The largest coordinate of the animation: radians, or fractions of [`Pose::length`].
 pub const FAR: f64 = 0.35;
-/// Poses of a wiggle.
+/// Number of poses of the animation.
 const STEPS: usize = 48;
-/// A closed pose farther from where first order leads than this share of the way is another motion.
+/// Share of a step beyond which a closed pose is too far from the first-order prediction and belongs to another motion.
 const ASTRAY: f64 = 0.5;
 
-/// An idle freedom as a motion.
+/// An idle freedom as an animation.
 #[derive(Debug, Clone)]
 pub struct Wiggle {
-    /// The poses, once to and fro.
+    /// The poses, once back and forth.
     pub way: Way,
-    /// Whether every pose closes; else they follow the motion to first order, and parts come apart by the second.
+    /// Whether every pose closes. If not, the poses follow the motion to first order, and parts separate to second
+    /// order.
     pub closed: bool,
 }
 
-/// One of the idle motions of a state; `None` where the numbers do not show it.
+/// Returns one of the idle motions of a state, or `None` if the numerical null vectors do not show it.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Singular values of a matrix of six rows a contour and a link that rests, for each motion up to the one asked for; then a
-/// closing a pose.
+/// Singular values of a matrix of six rows per contour and per link at rest, for each motion up to the requested one.
+/// Then one closure per pose.
 pub fn wiggle(
     mechanism: &Mechanism,
     state: StateId,
@@ -48,7 +50,7 @@ pub fn wiggle(
         return Ok(None);
     };
     let largest = speeds.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    // links that rest in it do so all the way
+    // links at rest in it stay at rest throughout
     let moving = |l: &LinkId| idle[which].links.contains(l);
     let rests = |&c: &usize| {
         !mechanism.joints[pose.columns[c].joint]
@@ -70,7 +72,7 @@ pub fn wiggle(
         });
         closed &= found.is_some();
         let mut there = pose.moved(&found.unwrap_or(ahead)).links;
-        // they hang on links that move, by what closing leaves open
+        // they are connected to moving links, within the closure tolerance
         for l in mechanism.link_ids().filter(|l| !moving(l)) {
             there[l.index()] = RigidMotion::IDENTITY;
         }
@@ -87,8 +89,8 @@ pub fn wiggle(
     Ok(Some(Wiggle { way, closed }))
 }
 
-/// The speeds of one of the motions: the null vectors under which the same links rest, less the motions before it of some of
-/// these links.
+/// Returns the speeds of one of the motions: the null vectors under which the same links are at rest, less the earlier
+/// motions of some of these links.
 fn speeds(
     mechanism: &Mechanism,
     state: StateId,

@@ -1,4 +1,4 @@
-//! What a self-stress puts on each joint, in any number system.
+//! The wrench of a self-stress on each joint, in any number system.
 
 use crate::closure::Closure;
 use crate::closure::twist::{FrameValues, MotionSpace};
@@ -11,20 +11,20 @@ pub(super) type Wrench<N> = [N; 6];
 
 /// The wrenches of the joints of a state under self-stresses.
 ///
-/// A self-stress of planar mode has three numbers a contour, a moment about the plane's normal n and forces along the e1 and
-/// e2 of [`MotionSpace`]; as a wrench in space that is (μ n; f1 e1 + f2 e2), whose power on any twist in the plane is the
-/// same.
+/// A self-stress of planar mode has three numbers per contour, a moment about the plane's normal n and forces along the
+/// e1 and e2 of [`MotionSpace`]. As a wrench in space this is (μ n; f1 e1 + f2 e2), whose power on any twist in the
+/// plane is the same.
 pub(super) struct JointWrenches<'a, S: Scalars> {
     s: &'a S,
     dim: usize,
     space: MotionSpace<S::Number>,
     frames: Vec<FrameValues<S::Number>>,
-    /// By joint: the contours that pass it, and whether forward.
+    /// For each joint, the contours that pass it, and whether forward.
     passes: Vec<Vec<(usize, bool)>>,
 }
 
 impl<'a, S: Scalars> JointWrenches<'a, S> {
-    /// The joints of a mechanism, the contours of any closure of the state.
+    /// Prepares the joints of a mechanism, with the contours of any closure of the state.
     pub(super) fn new<N>(
         s: &'a S,
         m: &Mechanism,
@@ -50,7 +50,7 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         std::array::from_fn(|_| S::Number::default())
     }
 
-    /// The wrench that a self-stress puts on a joint.
+    /// Returns the wrench of a self-stress on a joint.
     pub(super) fn at(&self, stress: &[S::Number], joint: JointId) -> Wrench<S::Number> {
         let s = self.s;
         let mut sum = vec![S::Number::default(); self.dim];
@@ -81,7 +81,8 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         [a, b, c, d, e, g]
     }
 
-    /// Moment of a wrench about the joint's point, m - p × f; in a plane its part along the normal, times [`Self::scale`].
+    /// Returns the moment of a wrench about the joint's point, m - p × f. In a plane it is the part along the normal,
+    /// times [`Self::scale`].
     pub(super) fn moment_at(&self, joint: JointId, w: &Wrench<S::Number>) -> [S::Number; 3] {
         let s = self.s;
         let [m0, m1, m2, f0, f1, f2] = w.clone();
@@ -96,7 +97,7 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         }
     }
 
-    /// What [`Self::moment_at`] is multiplied by in a plane, n · n; nothing in space.
+    /// Returns the factor of [`Self::moment_at`] in a plane, n · n, or `None` in space.
     pub(super) fn scale(&self) -> Option<S::Number> {
         match &self.space {
             MotionSpace::Spatial => None,
@@ -104,7 +105,8 @@ impl<'a, S: Scalars> JointWrenches<'a, S> {
         }
     }
 
-    /// What a self-stress has at a face (z its normal) beyond friction: a force across it and, where asked, moments along it.
+    /// Returns the components of a self-stress at a face (z its normal) other than friction: a normal force and, if
+    /// requested, tangential moments.
     pub(super) fn harm(
         &self,
         stress: &[S::Number],

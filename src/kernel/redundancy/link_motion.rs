@@ -1,8 +1,8 @@
-//! What a link can do in a pose: its translations, rotations and screw motions, named as an engineer names them.
+//! The motions of a link in a pose: its translations, rotations and screw motions, in engineering terms.
 //!
-//! The twists that a link can have relative to another form a subspace of dimension 0 to 6. Its pure translations are a subspace of that,
-//! and what is left has as many independent axes of rotation. Where all these axes meet, their common point is told; a single axis has a
-//! line and a pitch.
+//! The twists that a link can have relative to another form a subspace of dimension 0 to 6. Its pure translations are a
+//! subspace of that. The remainder has as many independent axes of rotation as dimensions. If all these axes meet,
+//! their common point is reported. A single axis has a line and a pitch.
 //!
 //! # Sources
 //! Subspaces of twists and their types: Hunt, "Kinematic Geometry of Mechanisms", 1978, chapter 12.
@@ -18,7 +18,7 @@ use crate::redundancy::external::present_links;
 use crate::redundancy::motion::outputs;
 use ozols_dense::{Matrix, svd};
 
-/// Freedoms of a mechanism at most: a larger one has its singular vectors computed only where somebody asks for them.
+/// Maximum number of freedoms of a mechanism. For larger ones, singular vectors are computed only on request.
 const FREEDOMS: usize = 400;
 
 /// The motion that a link can have relative to another one.
@@ -26,14 +26,14 @@ const FREEDOMS: usize = 400;
 pub struct LinkMotion {
     /// The link.
     pub link: LinkId,
-    /// What it moves relative to.
+    /// The reference link of the motion.
     pub relative_to: LinkId,
     /// Orthonormal directions of its pure translations.
     pub slides: Vec<Vector>,
     /// Its other motions, one for each independent axis of rotation.
     pub turns: Vec<Turning>,
-    /// The point in the file's unit where all axes of two or three rotations meet; `None` where they do not, or where translations make
-    /// any point as good as another.
+    /// The point in the file's unit where all axes of two or three rotations meet. `None` if they do not meet, or if
+    /// translations make any point equally valid.
     pub meet: Option<Vector>,
 }
 
@@ -49,7 +49,7 @@ pub struct Turning {
 }
 
 impl LinkMotion {
-    /// Returns how many independent motions there are.
+    /// Returns the number of independent motions.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.slides.len() + self.turns.len()
@@ -72,11 +72,11 @@ impl LinkMotion {
 }
 
 impl StateAnalysis {
-    /// Returns the motions of the outputs relative to the frame; nothing where singular values find another number of
-    /// motions than the rank says.
+    /// Returns the motions of the outputs relative to the frame. Empty if the number of motions by singular values
+    /// contradicts the rank.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn output_motions(&self, mechanism: &Mechanism) -> Result<Vec<LinkMotion>, ExactError> {
         let state = mechanism.state(&self.state).unwrap_or(StateId::FREE);
         let joints: Vec<JointId> = mechanism.joints_in(state).collect();
@@ -86,11 +86,11 @@ impl StateAnalysis {
         self.link_motions(mechanism, &outputs, mechanism.frame())
     }
 
-    /// Returns what some links can do relative to another in this state of the mechanism that was analysed; nothing where singular
-    /// values find another number of motions than the rank says.
+    /// Returns the motions of some links relative to another in this state of the analysed mechanism. Empty if the
+    /// number of motions by singular values contradicts the rank.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn link_motions(
         &self,
         mechanism: &Mechanism,
@@ -103,11 +103,11 @@ impl StateAnalysis {
     }
 }
 
-/// Returns the motions of some links relative to one in a state of a mechanism that has so many motions; nothing where singular values
-/// find another number of these, or where the mechanism is large.
+/// Returns the motions of some links relative to one in a state of a mechanism with `mobility` motions. Empty if
+/// singular values find another number, or if the mechanism is large.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
 /// One singular value decomposition of J, and one of 6 rows for each link.
@@ -126,7 +126,7 @@ fn link_motions(
     if kernel.ncols() != mobility {
         return Ok(Vec::new());
     }
-    // Behind the rows of the closure equations stand six for the twist of each link.
+    // The rows of the closure equations are followed by six for the twist of each link.
     let all = std::iter::once(&relative_to).chain(links);
     let paths: Vec<_> = all.map(|&l| path_from_frame(mechanism, state, l)).collect();
     let moved = pose.jacobian_with(&paths, &[]).times(&kernel);
@@ -139,7 +139,8 @@ fn link_motions(
     Ok(links.iter().enumerate().filter_map(of).collect())
 }
 
-/// Returns a span of twists in the lengths of a pose and about its middle as a motion; `None` where singular values do not converge.
+/// Returns a span of twists in the lengths of a pose and about its middle as a motion, or `None` if singular values do
+/// not converge.
 fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Option<LinkMotion> {
     let mut out = LinkMotion {
         link,
@@ -159,7 +160,7 @@ fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Optio
     let (turning, shifting) = (part(0), part(3));
     let turns = svd(&turning)?;
     let rank = turns.values.iter().filter(|&&s| s > FLAT).count();
-    // What does not turn slides.
+    // Motions without rotation are translations.
     let still = turns.null_space(rank);
     let slides = svd(&shifting.times(&still))?;
     let many = slides.values.iter().filter(|&&s| s > FLAT).count();
@@ -195,13 +196,13 @@ fn turning_of(pose: &Pose, axis: Vector, v: Vector) -> Turning {
     }
 }
 
-/// Returns a place in the file's unit.
+/// Returns a point in the file's unit.
 fn placed(pose: &Pose, p: Vector) -> Vector {
     add(scale(p, pose.length), pose.middle)
 }
 
-/// Returns the point about which all these twists are rotations, up to translations that are there; `None` where there is none, or more
-/// than one.
+/// Returns the point about which all these twists are rotations, up to existing translations. Returns `None` if there
+/// is no such point, or more than one.
 fn meeting(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<Vector> {
     // v = c × ω for each: three equations, linear in c.
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

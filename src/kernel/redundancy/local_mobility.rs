@@ -1,4 +1,4 @@
-//! Local mobilities: links that move while every output rests, and about which lines.
+//! Local mobilities: links that move while every output is at rest, with the lines of these motions.
 
 use crate::closure::Closure;
 use crate::geom::Scalars;
@@ -12,17 +12,17 @@ use crate::redundancy::motion::{Speeds, twist};
 /// One idle motion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Idle {
-    /// The links that move; one where the motion is a link's own.
+    /// The links that move. A single one if the motion involves no other link.
     pub links: Vec<LinkId>,
-    /// Joints of a single link whose points the motion leaves at rest: two of them name the line it spins about.
+    /// Joints of a single link whose points the motion leaves at rest. Two of them define the line it spins about.
     pub through: Vec<JointId>,
     /// Whether a single link only turns (rather than slides).
     pub turns: bool,
-    /// What it turns about or slides along, for a single link and where it has a name.
+    /// The axis or direction of the motion, for a single link and if it has a name.
     pub direction: Option<Direction>,
 }
 
-/// A basis of the motions that leave the outputs at rest: motions of one link alone first, then what is left.
+/// Returns a basis of the motions that leave the outputs at rest: first motions of single links, then the others.
 ///
 /// # Complexity
 /// O(n · f) twists for n links; an elimination of each link's own columns, and one of W motions.
@@ -39,7 +39,7 @@ pub fn idle_motions(
     let there: Vec<LinkId> = there.collect();
     let all = at_rest(exact, mechanism, closure, kernel, &there);
     if all.is_empty() {
-        // What one link does alone would be among them.
+        // Motions of a single link would be among them.
         return Vec::new();
     }
     let links = Links::new(exact, mechanism, closure, ids);
@@ -80,7 +80,7 @@ pub fn idle_motions(
     found
 }
 
-/// The links that have a joint in a state.
+/// Returns the links that have a joint in a state.
 fn joined(mechanism: &Mechanism, closure: &Closure<Residue>) -> Vec<LinkId> {
     let is_joined = |l: &LinkId| {
         let mut joints = mechanism.joints_in(closure.state);
@@ -89,7 +89,7 @@ fn joined(mechanism: &Mechanism, closure: &Closure<Residue>) -> Vec<LinkId> {
     mechanism.link_ids().filter(is_joined).collect()
 }
 
-/// The motions under which all of some outputs rest.
+/// Returns the motions under which all of some outputs are at rest.
 fn at_rest(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -110,15 +110,15 @@ fn at_rest(
         .collect()
 }
 
-/// The links of a state, and what the columns of J do to them.
+/// The links of a state, and the effect of the columns of J on them.
 struct Links<'a> {
     exact: &'a ExactField,
     mechanism: &'a Mechanism,
     closure: &'a Closure<Residue>,
     ids: Vec<LinkId>,
-    /// Of each link, the twist that each column gives it.
+    /// For each link, the twist from each column.
     motion: Vec<Vec<Vec<Residue>>>,
-    /// What every column closes, and couples.
+    /// The closure and coupling entries of every column.
     rows: Vec<Vec<Residue>>,
 }
 
@@ -141,7 +141,7 @@ impl<'a> Links<'a> {
         }
     }
 
-    /// The links that speeds move.
+    /// Returns the links that speeds move.
     fn moved(&self, speeds: &Speeds) -> Vec<LinkId> {
         let moving = |(_, m): &(&LinkId, &Vec<Vec<Residue>>)| {
             twist(self.exact, m, speeds).iter().any(|&x| x != 0)
@@ -150,7 +150,8 @@ impl<'a> Links<'a> {
         links.map(|(l, _)| *l).collect()
     }
 
-    /// Motions of one link alone: only its own joints move then, and its neighbours rest; what lies behind them does so with them.
+    /// Returns the motions of a single link. Only its own joints move, and its neighbours and everything behind them
+    /// are at rest.
     fn alone(&self, link: LinkId, joints: &[JointId]) -> Vec<Speeds> {
         let closure = self.closure;
         let mut neighbours: Vec<LinkId> = joints
@@ -188,7 +189,7 @@ impl<'a> Links<'a> {
     }
 }
 
-/// What a twist turns about, or slides along where it does not turn.
+/// Returns the rotation axis of a twist, or its direction of sliding if it does not turn.
 fn direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option<Direction> {
     let &[w0, w1, w2, v0, v1, v2] = t else {
         return None;
@@ -201,7 +202,7 @@ fn direction(exact: &ExactField, mechanism: &Mechanism, t: &[Residue]) -> Option
     Direction::of(exact, mechanism, of)
 }
 
-/// Whether a twist leaves a joint's point at rest: v + ω × p = 0.
+/// Returns true if a twist leaves a joint's point at rest: v + ω × p = 0.
 fn rests_at(exact: &ExactField, mechanism: &Mechanism, joint: JointId, t: &[Residue]) -> bool {
     let (&[w0, w1, w2, v0, v1, v2], Ok(p)) = (t, exact.eval3(&mechanism.joints[joint].frame.point))
     else {

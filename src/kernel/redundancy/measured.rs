@@ -1,4 +1,5 @@
-//! The structure of a state by singular values, for measured geometry that exact arithmetic would take at its word.
+//! The structure of a state by singular values, for measured geometry that exact arithmetic would take exactly as
+//! written.
 
 use crate::closure::Closure;
 use crate::geom::Reals;
@@ -15,17 +16,17 @@ pub struct Measured<'a> {
     closure: Closure<f64>,
     /// The scaled J.
     matrix: Matrix,
-    /// Singular values at or below this count as zero.
+    /// Limit at or below which singular values count as zero.
     floor: f64,
     /// Motions: columns of an orthonormal basis of the null space.
     kernel: Matrix,
 }
 
 impl<'a> Measured<'a> {
-    /// J of a state, with its null space at a relative tolerance.
+    /// Decomposes J of a state and its null space at a relative tolerance.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     ///
     /// # Complexity
     /// One decomposition, O(6k · f · min(6k, f)).
@@ -51,7 +52,7 @@ impl<'a> Measured<'a> {
         })
     }
 
-    /// W at the pose.
+    /// Returns W at the pose.
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.kernel.ncols()
@@ -65,7 +66,7 @@ impl<'a> Measured<'a> {
             .count()
     }
 
-    /// Dimension of the joint motion of some links.
+    /// Returns the dimension of the joint motion of some links.
     #[must_use]
     pub(crate) fn span_of_links(&self, links: &[LinkId]) -> usize {
         let scaling = Scaling::of(&self.closure);
@@ -86,7 +87,7 @@ impl<'a> Measured<'a> {
         self.rank_of(&motion.times(&self.kernel))
     }
 
-    /// Dimension of the part of the motions that some joints do.
+    /// Returns the dimension of the motions restricted to some joints.
     #[must_use]
     pub(crate) fn span_of_joints(&self, joints: &[JointId]) -> usize {
         let columns: Vec<usize> = (0..self.closure.columns.len())
@@ -98,7 +99,7 @@ impl<'a> Measured<'a> {
         self.rank_of(&part)
     }
 
-    /// Rank of the rows of some contours and couplings.
+    /// Returns the rank of the rows of some contours and couplings.
     fn rank_of_rows(&self, contours: &[usize], couplings: &[usize]) -> usize {
         let (dim, first) = (self.closure.dim, self.closure.contour_rows());
         let of_contours = contours.iter().flat_map(|k| dim * k..dim * (k + 1));
@@ -111,8 +112,8 @@ impl<'a> Measured<'a> {
         self.rank_of(&part)
     }
 
-    /// Rank of the rows of all couplings and of contours j less a multiple of contour i: what is left of J in a basis in which
-    /// contour i has these coefficients in the contours given.
+    /// Returns the rank of the rows of all couplings and of contours j less a multiple of contour i. These rows are the
+    /// remainder of J in a basis in which contour i has these coefficients in the given contours.
     fn rank_without(&self, i: usize, weights: &[i64]) -> usize {
         let dim = self.closure.dim;
         let first = self.closure.contour_rows();
@@ -123,7 +124,7 @@ impl<'a> Measured<'a> {
             let row = others[r];
             let own = self.matrix[(row, c)];
             match weights.get(row / dim).filter(|_| row < first) {
-                // Rows of like size, so that what is zero stays below the floor.
+                // Rows of similar size keep zeros below the floor.
                 Some(&w) => {
                     let w = w as f64;
                     (own - w * self.matrix[(dim * i + row % dim, c)]) / w.abs().max(1.0)
@@ -134,7 +135,7 @@ impl<'a> Measured<'a> {
         self.rank_of(&part)
     }
 
-    /// σ_i of each contour in the order of the basis, and its range over all orders.
+    /// Returns σ_i of each contour in the order of the basis, and its range over all orders.
     ///
     /// # Complexity
     /// 3k decompositions.
@@ -163,7 +164,7 @@ impl<'a> Measured<'a> {
             .collect()
     }
 
-    /// Shares of the couplings, which come after the contours.
+    /// Returns the shares of the couplings, which come after the contours.
     ///
     /// # Complexity
     /// 2c + 1 decompositions.

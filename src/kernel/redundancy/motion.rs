@@ -1,5 +1,5 @@
-//! What can move: the kernel of the closure matrix, the motions of links it gives, and the mobility that is at work, that of the output
-//! links.
+//! Instantaneous motions: the kernel of the closure matrix, the motions of links it gives, and the working mobility,
+//! that of the output links.
 
 use crate::closure::drive::{rate, rate_row};
 use crate::closure::twist::MotionSpace;
@@ -13,19 +13,20 @@ use crate::model::mechanism::{LinkId, Mechanism, Role, StateId};
 /// A motion of the whole mechanism: a speed for each column of J.
 pub type Speeds = Vec<Residue>;
 
-/// The motions a mechanism has in its reference pose: a basis of the kernel of J, reduced.
+/// Returns the motions of a mechanism in its reference pose: a reduced basis of the kernel of J.
 #[must_use]
 pub fn motions(exact: &ExactField, closure: &Closure<Residue>) -> Vec<Speeds> {
     echelon::relations(exact.field(), &columns_with_rows(&closure.dense(exact)))
 }
 
-/// Returns columns that have a row: without contours J has none, and one row of zeros gives every column its own motion.
+/// Returns columns that have a row. Without contours J has none, and one row of zeros gives every column its own
+/// motion.
 fn columns_with_rows(columns: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
     let with_row = |c: &Vec<Residue>| if c.is_empty() { vec![0] } else { c.clone() };
     columns.iter().map(with_row).collect()
 }
 
-/// The twist of a link under a motion.
+/// Returns the twist of a link under a motion.
 #[must_use]
 pub(crate) fn twist(
     exact: &ExactField,
@@ -35,11 +36,11 @@ pub(crate) fn twist(
     echelon::combination(exact.field(), link_motion, speeds)
 }
 
-/// Returns the joint motion of some links and of the kept drives in a state: the span of the links' twists, one after the other, and of the
-/// drives' rates behind them, reduced. Locked drives rest.
+/// Returns the joint motion of some links and of the kept drives in a state. It is the reduced span of the links'
+/// twists, one after the other, followed by the drives' rates. Locked drives are at rest.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub(crate) fn joint_motion(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -85,10 +86,10 @@ fn drive_rates(
     mechanism.search.drives.iter().map(of_drive).collect()
 }
 
-/// Dimension of the output links' joint motion, alone.
+/// Returns only the dimension of the output links' joint motion.
 ///
 /// # Errors
-/// Where a coordinate has no image in the field.
+/// Returns an error if a coordinate has no image in the field.
 ///
 /// # Complexity
 /// O(f³) field operations for f freedoms.
@@ -103,7 +104,7 @@ pub fn working_mobility(
     Ok(span_of_links(exact, mechanism, &closure, &kernel, &outputs))
 }
 
-/// The links whose motion is wanted.
+/// Returns the links whose motion is wanted.
 pub(crate) fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
     mechanism
         .link_ids()
@@ -111,7 +112,7 @@ pub(crate) fn outputs(mechanism: &Mechanism) -> Vec<LinkId> {
         .collect()
 }
 
-/// Dimension of the joint motion of some links over a basis of motions.
+/// Returns the dimension of the joint motion of some links over a basis of motions.
 pub(crate) fn span_of_links(
     exact: &ExactField,
     mechanism: &Mechanism,

@@ -1,5 +1,5 @@
-//! Whether what is redundant at the pose of the file is so over the motion: proven, followed, seen in further poses, or
-//! not known.
+//! Whether constraints that are redundant at the pose of the file are so over the motion: proven, followed, observed in
+//! further poses, or unknown.
 
 use crate::format::plural;
 use crate::geom::exact::ExactError;
@@ -10,59 +10,60 @@ use crate::rank::finite::{Finite, How};
 use crate::rank::numeric::scaling::rank_of_values;
 use ozols_dense::{Matrix, svd};
 
-/// Further poses looked at where nothing else tells what holds over the motion, and where looking takes long.
+/// Number of further poses examined if nothing else decides what holds over the motion: normally, and if each takes
+/// long.
 const POSES: [usize; 2] = [20, 5];
-/// Work of singular values, rows · columns · the lesser of them, from which it does.
+/// Work of singular values, rows · columns · the smaller of them, above which a pose takes long.
 const LONG: usize = 5_000_000;
-/// How often a pose is tried for each that is wanted: some do not close, some are outside the limits.
+/// Number of attempts per required pose. Some poses do not close, and some are outside the limits.
 const TRIES: usize = 3;
 
 /// Largest coordinate of a step: radians, and fractions of the mechanism's size.
 const STEP: f64 = 0.2;
-/// Shares of it that are tried one after the other.
+/// Shares of the step that are tried one after the other.
 const SHORTER: [f64; 3] = [1.0, 0.2, 0.04];
-/// How often a step that does not close is halved.
+/// Number of times that a step that does not close is halved.
 const HALVINGS: u32 = 5;
-/// Shares of a step at which poses close, too, where it follows a motion.
+/// Shares of a step at which poses must also close if it follows a motion.
 const BETWEEN: [f64; 4] = [0.75, 0.5, 0.25, 0.125];
-/// A gap changes singular values by at most its root times this.
+/// Factor on the root of a gap that bounds the change of singular values.
 const SLOPE: f64 = 4.0;
-/// Singular values above this share of the largest are real, however coarse the coordinates are.
+/// Share of the largest singular value above which values are nonzero for any coordinate accuracy.
 const COARSEST: f64 = 1e-2;
 
-/// Where the redundant constraints of a pose are redundant.
+/// Poses in which the constraints that are redundant at this pose are redundant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Where {
     /// In all poses near this one: it is a regular pose, proven.
     Proven,
     /// In all poses near this one: the motion was followed numerically, and the pose is a regular one.
     Followed,
-    /// In so many further poses, by singular values.
+    /// In `poses` further poses, by singular values.
     Seen {
-        /// Poses.
+        /// Number of poses.
         poses: usize,
-        /// Whether they are inside the limits of the joints; where this one is not, they need not be.
+        /// Whether they are inside the limits of the joints. If this pose is not, they need not be.
         limited: bool,
     },
-    /// No loop moves: there are no other poses near.
+    /// No loop moves, so there are no other poses nearby.
     Rigid,
-    /// At this pose; in further poses fewer are redundant.
+    /// At this pose only; in further poses fewer are redundant.
     Pose {
-        /// The fewest seen in a further pose.
+        /// The smallest number in a further pose.
         elsewhere: usize,
-        /// Poses looked at.
+        /// Number of poses examined.
         poses: usize,
-        /// Whether they are inside the limits of the joints; where this one is not, they need not be.
+        /// Whether they are inside the limits of the joints. If this pose is not, they need not be.
         limited: bool,
     },
-    /// At this pose, which is a shaky one without others near.
+    /// At this pose, which is shaky and has no others nearby.
     Shaky,
-    /// At this pose; no more is known.
+    /// At this pose; nothing else is known.
     Unknown,
 }
 
 impl Where {
-    /// One word for programs.
+    /// Returns one word for programs.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -75,7 +76,7 @@ impl Where {
         }
     }
 
-    /// In a sentence.
+    /// Describes the poses as part of a sentence.
     #[must_use]
     pub fn describe(self) -> String {
         match self {
@@ -112,21 +113,22 @@ fn limits(limited: bool) -> &'static str {
     if limited { " inside the limits" } else { "" }
 }
 
-/// Returns where the σ of a state holds, and the pose with the fewest redundant constraints where those are fewer than here.
+/// Returns where the σ of a state holds, and the pose with the fewest redundant constraints if there are fewer than
+/// here.
 ///
-/// A pose that has as many instantaneous motions as finite ones is regular, so J keeps its rank near it: the finite mobility
-/// decides. Otherwise further closed poses decide, those `inside` the limits of the joints where this one is. `redundant` is the
-/// most that σ can be here. Singular values below `tolerance` of the largest count as zero, and coordinates have the relative
-/// error `accuracy`, 0 where they are exact.
+/// A pose with as many instantaneous motions as finite ones is regular, so J keeps its rank near it, and the finite
+/// mobility decides. Otherwise further closed poses decide. They must be `inside` the limits of the joints if this one
+/// is. `redundant` is the upper bound of σ here. Singular values below `tolerance` of the largest count as zero.
+/// Coordinates have the relative error `accuracy`, 0 if they are exact.
 ///
-/// Where finite motions are fewer, σ over the motion is not what they say: `W + rows - freedoms` with the finite W is the
-/// least that it can be. A beam on two balls has 1 redundant constraint in every pose, and that sum is 0.
+/// If there are fewer finite motions, they do not determine σ over the motion: `W + rows - freedoms` with the finite W
+/// is only a lower bound. A beam on two balls has 1 redundant constraint in every pose, and that sum is 0.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Some closings of O((6k)² f) and a decomposition of J a pose, where finite mobility does not tell.
+/// A few closures of O((6k)² f) and a decomposition of J per pose, if the finite mobility does not decide.
 pub(crate) fn redundant_where(
     m: &Mechanism,
     state: StateId,
@@ -172,12 +174,12 @@ pub(crate) fn redundant_where(
     })
 }
 
-/// Returns what the finite mobility alone decides of a pose with so many instantaneous motions.
+/// Returns the result that the finite mobility alone gives for a pose with `instantaneous` motions.
 fn by_mobility(pose: &Pose, finite: &Finite, instantaneous: usize) -> Option<Where> {
     if finite.is_undecided() || (finite.numeric && !matches!(finite.how, How::Traced { .. })) {
         return None;
     }
-    // Joints in no loop move as they like, whatever the loops do.
+    // Joints in no loop move freely, independent of the loops.
     let loops_rest = finite.mobility + pose.looped_columns() == pose.columns.len();
     let regular = finite.mobility == instantaneous;
     match (regular, loops_rest) {
@@ -189,21 +191,21 @@ fn by_mobility(pose: &Pose, finite: &Finite, instantaneous: usize) -> Option<Whe
     }
 }
 
-/// What further poses show.
+/// Findings in further poses.
 #[derive(Default)]
 struct Seen {
     poses: usize,
-    /// The fewest redundant constraints for sure, where they are fewer than here, and the pose.
+    /// The smallest certain number of redundant constraints, if smaller than here, and the pose.
     least: Option<(usize, Pose)>,
-    /// Whether some pose may have fewer, though small singular values leave it open.
+    /// Whether some pose may have fewer, because small singular values leave it open.
     unclear: bool,
 }
 
-/// A look at closed poses near one.
+/// An examination of closed poses near one.
 struct Walk<'a> {
     pose: &'a Pose,
     rows: usize,
-    /// Every pose has at least so many motions.
+    /// Lower bound of the number of motions in every pose.
     least_mobility: usize,
     tolerance: f64,
     accuracy: f64,
@@ -211,20 +213,20 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Returns what poses on the motion show, where so many constraints are redundant in the pose of the file.
+    /// Returns the findings in poses on the motion, if `redundant` constraints are redundant in the pose of the file.
     fn seen(&self, redundant: usize) -> Seen {
         let f = self.pose.columns.len();
         let wanted = POSES[usize::from(self.rows * f * self.rows.min(f) > LONG)];
         let mut out = Seen::default();
-        // All coordinates count from the pose of the file, so that errors of closing do not add up. The way to the last
-        // pose, and the directions that it moves in.
+        // All coordinates are relative to the pose of the file, so that closure errors do not accumulate. This is the
+        // path to the last pose, with its directions of motion.
         let start = (vec![0.0; f], motions(self.pose));
         let mut way = vec![start];
         for i in 0..TRIES * wanted {
             if out.poses == wanted {
                 break;
             }
-            // On from where the last led, and by turns from here, so that several branches of a motion are met.
+            // Continues from the last pose, and periodically from here, so that several branches of a motion are found.
             if i % 4 == 0 {
                 way.truncate(1);
             }
@@ -247,30 +249,32 @@ impl Walk<'_> {
         out
     }
 
-    /// Returns the next closed pose from one, on a motion in a direction of some columns that depends on the number of the try.
+    /// Returns the next closed pose from one, on a motion in a direction of some columns that depends on the index of
+    /// the attempt.
     fn next(&self, from: &[f64], span: &Matrix, i: usize) -> Option<Vec<f64>> {
         if span.ncols() == 0 {
             return None;
         }
-        // Every motion takes part, each pose with other weights, there and back.
+        // Every motion takes part, with other weights for each pose, forwards and backwards.
         let weight = |c: usize| f64::from(u32::try_from((c * 7 + i * 3) % 11).unwrap_or(0)) - 5.3;
         let along: Vec<f64> = (0..span.nrows())
             .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weight(c)).sum())
             .collect();
         let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        // Where limits leave little room, shorter steps.
+        // Shorter steps, in case limits leave little space.
         let mut tried = SHORTER
             .iter()
             .filter_map(|s| (self.pose).beside(from, &along, sign * s * STEP, HALVINGS));
         tried.find(|q| (self.inside)(&self.pose.moved(q)))
     }
 
-    /// Returns the figures of J at closed coordinates; `None` if J leaves fewer motions than there are, because then the pose is
-    /// not closed well enough.
+    /// Returns the figures of J at closed coordinates, or `None` if J leaves fewer motions than there are, because then
+    /// the pose is not closed well enough.
     fn judged(&self, q: &[f64]) -> Option<Judged> {
         let gap = norm(&self.pose.gaps(q)).max(f64::EPSILON);
         let svd = svd(&self.pose.jacobian(q))?;
-        // Where J is short of rank all along the motion, a closed pose is off by the root of its gap, and J by as much.
+        // If J is rank-deficient all along the motion, the error of a closed pose is the root of its gap, and J is off
+        // by as much.
         let zero = self.tolerance.max(SLOPE * gap.sqrt());
         let coarse = (SLOPE * self.accuracy.sqrt()).min(COARSEST);
         let [most, least] = [zero, zero.max(coarse)]
@@ -284,7 +288,8 @@ impl Walk<'_> {
         })
     }
 
-    /// Returns whether closed poses lie between all those of a way, so that the last is on the motion through the first.
+    /// Returns true if closed poses lie between all those of a path, so that the last is on the motion through the
+    /// first.
     fn is_joined(&self, way: &[(Vec<f64>, Matrix)]) -> bool {
         way.windows(2).all(|ends| {
             let [from, to] = [&ends[0].0, &ends[1].0];
@@ -303,9 +308,9 @@ impl Walk<'_> {
 
 /// The figures of J at a pose.
 struct Judged {
-    /// The least and the most that are redundant there.
+    /// The smallest and largest number of redundant constraints there.
     redundant: [usize; 2],
-    /// The instantaneous motions, a column each.
+    /// The instantaneous motions, one column each.
     motions: Matrix,
 }
 
@@ -318,8 +323,8 @@ mod tests {
     use super::*;
     use crate::model::drawn::{drawn, four_bar};
 
-    /// Where limits leave no room but the pose of the file, nothing is known of others; without any, a four-bar has its three
-    /// redundant constraints elsewhere, too.
+    /// If limits leave only the pose of the file, nothing is known about others. Without limits, a four-bar also has
+    /// its three redundant constraints in other poses.
     #[test]
     fn poses_outside_the_limits_do_not_count() {
         let m = drawn(&four_bar(0, 1, 0.0), &[]);

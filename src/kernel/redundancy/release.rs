@@ -1,10 +1,11 @@
-//! Releases: a freedom given to a joint, or a coupling let go, each of which removes one redundant constraint and lets
-//! nothing move.
+//! Releases: a freedom added to a joint, or a coupling removed. Each removes one redundant constraint and adds no
+//! mobility.
 //!
-//! A release adds a column to J (or takes away a row). It lets nothing move where that column is outside the image of J:
-//! where a self-stress does work on the new freedom. A set of σ releases removes all redundant constraints and leaves W as
-//! it is exactly where the σ × σ matrix of these powers is regular, so that the cheapest set is a basis of a matroid and
-//! the greedy choice finds it. The rows of joints that such a set lets go are what is redundant, in the joints' own words.
+//! A release adds a column to J (or removes a row). It adds no mobility if that column is outside the image of J, that
+//! is, if a self-stress does work on the new freedom. A set of σ releases removes all redundant constraints and
+//! preserves W if and only if the σ × σ matrix of these powers is regular. So the cheapest set is a basis of a matroid,
+//! and the greedy choice finds it. The joint constraints that such a set removes are the redundant ones, expressed in
+//! the joints' own directions.
 
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::Reals;
@@ -13,41 +14,41 @@ use crate::geom::vector::{Vector, cross, dot, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism};
 
-/// Directions nearer than this are one.
+/// Distance below which directions count as equal.
 pub(super) const ALIKE: f64 = 1e-5;
 
-/// What is let go.
+/// The constraint that is removed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Release {
     /// A joint gets one more freedom.
     Freedom {
         /// The joint.
         joint: JointId,
-        /// Whether it is a slide along a line, or else a turn about it.
+        /// Whether it is a slide along a line; otherwise a turn about it.
         slides: bool,
         /// Direction of the line through the joint's point, of unit length.
         direction: Vector,
     },
-    /// A coupling, by its place among those of the state.
+    /// A coupling, by its index among those of the state.
     Coupling(usize),
 }
 
-/// A redundant constraint: what is held twice.
+/// A redundant constraint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Duplicate {
-    /// The constraint: what would be let go of it.
+    /// The constraint, as the release that would remove it.
     pub row: Release,
-    /// The joints that hold the same, those that its self-stress loads.
+    /// The joints that impose the same constraint, those that its self-stress loads.
     pub by: Vec<JointId>,
-    /// Indices of the contours that its self-stress goes round.
+    /// Indices of the contours in which its self-stress acts.
     pub contours: Vec<usize>,
     /// Couplings that its self-stress loads.
     pub couplings: Vec<usize>,
-    /// Places in the list of candidates of the releases that remove it, in the order of their costs.
+    /// Indices in the list of candidates of the releases that remove it, in the order of their costs.
     pub remedies: Vec<usize>,
 }
 
-/// What a joint becomes with one more freedom: a type with a name where there is one.
+/// Describes the joint with one more freedom: by the name of its type if it has one.
 #[must_use]
 pub fn becomes(m: &Mechanism, joint: JointId, slides: bool, direction: Vector) -> String {
     let j = &m.joints[joint];
@@ -72,7 +73,7 @@ pub(super) fn positive(d: Vector) -> Vector {
         |m: f64, x| if x.abs() > m.abs() + ALIKE { *x } else { m },
     );
     let sign = if largest < 0.0 { -1.0 } else { 1.0 };
-    // No minus zeros, and no rounding errors.
+    // Avoids negative zeros and rounding errors.
     d.map(|x| if x.abs() < 1e-12 { 0.0 } else { sign * x })
 }
 
@@ -80,7 +81,7 @@ pub(super) fn norm(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// What orthonormal vectors leave of another.
+/// Returns the remainder of a vector after projection on orthonormal vectors.
 pub(super) fn rest(v: &[f64], span: &[Vec<f64>]) -> Vec<f64> {
     let mut out = v.to_vec();
     for s in span {
@@ -101,11 +102,11 @@ pub(super) fn orthonormal(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f6
     span
 }
 
-/// The turns and slides, about and along unit directions through a joint's point, that another option at the joint has and
-/// the joint has not.
+/// Returns the turns and slides of another option at the joint that the joint lacks, about and along unit directions
+/// through its point.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 pub fn added(
     now: (&Frame, &JointType),
     then: (&Frame, &JointType),

@@ -1,9 +1,10 @@
-//! Self-stresses: the wrenches that an over-constrained mechanism carries with no load at all, once a part is a little
-//! out of true. They are the left null vectors of the closure matrix; each row block is the wrench that a contour
-//! passes round, and the entry of a coupling's row the force or moment that it passes from one joint to the other.
+//! Self-stresses: the wrenches in an overconstrained mechanism without any load, once a part is slightly inaccurate.
 //!
-//! Self-stresses while drives hold their freedoms, in exact geometry: the singular values that reactions come from take what is
-//! nearly dependent for dependent.
+//! They are the left null vectors of the closure matrix. Each row block is the wrench that a contour transmits. The
+//! entry of a coupling's row is the force or moment that it transmits from one joint to the other.
+//!
+//! The module also counts self-stresses with the freedoms of drives held, in exact geometry. The singular values used
+//! for reactions treat nearly dependent rows as dependent.
 
 use crate::closure::{Closure, Column};
 use crate::geom::exact::{ExactError, ExactField};
@@ -18,10 +19,10 @@ use crate::redundancy::joint_wrench::JointWrenches;
 use crate::redundancy::stress_loads::{Borne, Faces, Shares};
 use itertools::Itertools;
 
-/// What a self-stress does to the parts.
+/// Effect of a self-stress on the parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressVerdict {
-    /// Only friction at the faces of shared-load contacts: forces along them, or a moment about their normal.
+    /// Only friction at the faces of shared-load contacts: tangential forces, or a moment about their normal.
     Harmless,
     /// Moments that faces or bearings must carry, or forces that press parts together.
     Harmful,
@@ -32,33 +33,33 @@ pub enum StressVerdict {
 pub struct JointWrench {
     /// The joint.
     pub joint: JointId,
-    /// Which of the moments about x, y, z through the joint's point are not zero.
+    /// Whether the moments about x, y, z through the joint's point are nonzero.
     pub moments: [bool; 3],
-    /// Which of the forces along x, y, z are not zero.
+    /// Whether the forces along x, y, z are nonzero.
     pub forces: [bool; 3],
-    /// The same in numbers. `None` where that is left uncomputed, see [`Shares`].
+    /// The wrench in numbers, or `None` if it is not computed, see [`Shares`].
     pub borne: Option<Borne>,
 }
 
 /// One self-stress of a basis.
 #[derive(Debug, Clone)]
 pub struct SelfStress {
-    /// Indices of the contours that pass a wrench round.
+    /// Indices of the contours that transmit a wrench.
     pub contours: Vec<usize>,
-    /// Indices of the couplings that pass a force or moment from joint to joint, among those of the state.
+    /// Indices of the couplings that transmit a force or moment from joint to joint, among those of the state.
     pub couplings: Vec<usize>,
-    /// What each joint of those contours carries, its couplings included.
+    /// The wrench on each joint of those contours, including its couplings.
     pub joints: Vec<JointWrench>,
     /// Whether the self-stress exists only with the state's additional joints.
     pub external: bool,
     /// Harmless or harmful.
     pub verdict: StressVerdict,
-    /// ℓ, the size of the mechanism that moments are divided by, in the file's unit.
+    /// ℓ, the size of the mechanism by which moments are divided, in the file's unit.
     pub size: f64,
 }
 
-/// The left kernel of J in the echelon form that keeps to the earliest contours it can: each vector ends in a one that
-/// no other vector has an entry at, and they are sorted by where they end.
+/// Returns the left kernel of J in the echelon form that uses the earliest possible contours. Each vector ends in a one
+/// at which no other vector has an entry, and they are sorted by their ends.
 ///
 /// # Complexity
 /// One elimination of J by rows, see [`relations`].
@@ -70,7 +71,7 @@ pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Ve
     } else {
         transpose(&columns)
     };
-    // Reversing the order of coordinates makes the reduced form keep to the earliest contours it can.
+    // With the coordinates reversed, the reduced form uses the earliest possible contours.
     rows.reverse();
     let mut stresses = relations(exact.field(), &rows);
     stresses.iter_mut().for_each(|v| v.reverse());
@@ -78,15 +79,15 @@ pub(crate) fn stress_basis(exact: &ExactField, closure: &Closure<Residue>) -> Ve
     stresses
 }
 
-/// The self-stresses of a state, those that load none of the joints it adds apart from the others.
+/// The self-stresses of a state, with those that load none of its added joints separate from the others.
 struct Stresses<'a> {
     wrenches: JointWrenches<'a, ExactField>,
     internal: Vec<Vec<Residue>>,
-    /// Friction at the contacts first.
+    /// Those with only friction at the contacts come first.
     external: Vec<Vec<Residue>>,
     /// The added joints that are faces.
     faces: Vec<JointId>,
-    /// The face that moments are judged at.
+    /// The face at which moments are evaluated.
     reference: Option<JointId>,
 }
 
@@ -115,8 +116,8 @@ impl<'a> Stresses<'a> {
             faces,
             reference: None,
         };
-        // Forces along two faces apart are a couple that one of them must take up as a shift of pressure, so moments are
-        // judged at one face: the one that shows most friction.
+        // Forces along two separate faces form a couple that one of them must carry as a shift of pressure. So moments
+        // are evaluated at one face: the one that shows the most friction.
         let friction = |reference: Option<JointId>| {
             let harm = |s: &Vec<Residue>| out.harm_at(s, reference);
             let images: Vec<Vec<Residue>> = out.external.iter().map(harm).collect();
@@ -141,16 +142,16 @@ impl<'a> Stresses<'a> {
         self.harm_at(s, self.reference)
     }
 
-    /// Whether an external stress is friction alone.
+    /// Returns true if an external stress is only friction.
     fn is_friction(&self, s: &[Residue]) -> bool {
         !self.faces.is_empty() && self.harm(s).iter().all(|&x| x == 0)
     }
 }
 
-/// How many self-stresses load the joints that a state adds with more than friction.
+/// Returns the number of self-stresses that load the added joints of a state with more than friction.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// One elimination of J, O((6k)² f), and a few of the stresses.
@@ -167,11 +168,11 @@ pub(crate) fn harmful_count(
     Ok(harmful.count())
 }
 
-/// A sparse basis of the self-stresses of a state: those of the free state's contours first, then those that need the
-/// additional ones; among the latter, friction at the contacts first.
+/// Returns a sparse basis of the self-stresses of a state: first those of the free state's contours, then those that
+/// need the additional ones. Among the latter, those with only friction at the contacts come first.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// One elimination of J, O((6k)² f), and one per joint and stress.
@@ -231,8 +232,8 @@ pub(crate) fn self_stresses(
         .collect())
 }
 
-/// A basis of the stresses of which a linear `part` is zero, and what makes it one of all of them: stresses that are in the
-/// list as they stand, where they can be.
+/// Returns a basis of the stresses whose linear `part` is zero, and its completion to a basis of all. It uses unchanged
+/// stresses of the list if possible.
 fn first_those_without(
     exact: &ExactField,
     stresses: Vec<Vec<Residue>>,
@@ -263,8 +264,9 @@ fn first_those_without(
     (without, rest)
 }
 
-/// Self-stresses of a state in the pose of the file, with the freedoms that drives hold, by one prime; `None` for mechanisms of
-/// a plane, whose equations are others, and where coordinates look rounded, so that they do not say.
+/// Returns the number of self-stresses of a state in the pose of the file, with the freedoms that drives hold, by one
+/// prime. Returns `None` for planar mechanisms, whose equations differ, and if coordinates look rounded, so that the
+/// result would mean nothing.
 ///
 /// # Complexity
 /// That of [`modular::rank`].
@@ -280,7 +282,7 @@ pub fn exact_self_stresses(
     let exact = field_of(m, state, 0).ok()?;
     let mut closure = Closure::new(&exact, m, state).ok()?;
     let held = |c: &Column<Residue>| drives.contains(&(c.joint, c.freedom));
-    // Held freedoms stay where they are, as columns of nothing: the rows of couplings know them by their places.
+    // Held freedoms stay as zero columns, because the rows of couplings refer to columns by index.
     for (i, column) in closure
         .columns
         .iter_mut()

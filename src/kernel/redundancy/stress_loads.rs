@@ -1,8 +1,9 @@
-//! What each joint bears of a self-stress, and how much of it.
+//! The load of a self-stress on each joint, in numbers.
 //!
-//! The self-stresses are exact, modulo a prime, and residues have no size. But each is determined, up to a factor, by its zero
-//! entries (and, of friction at the contacts, by what it does not do to the faces): the bases are in reduced form, so that no
-//! other self-stress has its zeros. Its real numbers are the one solution of the closure equations of those rows.
+//! The self-stresses are exact, modulo a prime, and residues have no size. But each is determined, up to a factor, by
+//! its zero entries. For friction at the contacts, the zero effects on the faces are used as well. The bases are in
+//! reduced form, so no other self-stress has the same zeros. Its real numbers are the only solution of the closure
+//! equations of those rows.
 
 use crate::closure::Closure;
 use crate::geom::Reals;
@@ -12,9 +13,9 @@ use crate::linalg::modp::Residue;
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::joint_wrench::JointWrenches;
 
-/// Pivots below this fraction of the first are zero.
+/// Share of the first pivot below which pivots are zero.
 const TOLERANCE: f64 = 1e-9;
-/// Products spent on all self-stresses of a state; what is left then has no shares.
+/// Maximum number of products for all self-stresses of a state. Remaining ones have no shares.
 const MOST_PRODUCTS: usize = 200_000_000;
 
 /// The faces that a self-stress only loads with friction.
@@ -22,12 +23,12 @@ const MOST_PRODUCTS: usize = 200_000_000;
 pub(super) struct Faces<'a> {
     /// The joints.
     pub(super) joints: &'a [JointId],
-    /// The one at which moments are judged.
+    /// The face at which moments are evaluated.
     pub(super) reference: Option<JointId>,
 }
 
-/// What a joint carries of a self-stress, in global axes: the wrench on the second of its links, and so the opposite of that on
-/// the first. The unit of force is such that Σ |f|² + |m|²/ℓ² over the joints is 1.
+/// The load of a self-stress on a joint, in global axes: the wrench on the second of its links, and so the opposite of
+/// that on the first. The unit of force is such that Σ |f|² + |m|²/ℓ² over the joints is 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Borne {
     /// The moment about the joint's point, in the unit of force times ℓ, the length that makes both comparable.
@@ -37,20 +38,20 @@ pub struct Borne {
 }
 
 impl Borne {
-    /// Its part of Σ |f|² + |m|²/ℓ² over the joints, about their own points.
+    /// Returns its part of Σ |f|² + |m|²/ℓ² over the joints, about their own points.
     #[must_use]
     pub fn share(&self) -> f64 {
         dot(self.force, self.force) + dot(self.moment, self.moment)
     }
 }
 
-/// Shares of the joints in self-stresses, one after the other.
+/// Shares of the joints in self-stresses, computed one after the other.
 pub struct Shares<'a> {
     mechanism: &'a Mechanism,
     closure: Closure<f64>,
     columns: Vec<Vec<f64>>,
     wrenches: JointWrenches<'static, Reals>,
-    /// Root mean square distance of the joints from their middle; 1 where they coincide.
+    /// Root mean square distance of the joints from their middle; 1 if they coincide.
     size: f64,
     left: usize,
 }
@@ -64,10 +65,10 @@ impl std::fmt::Debug for Shares<'_> {
 }
 
 impl<'a> Shares<'a> {
-    /// Those of the state and contours of a closure.
+    /// Prepares the shares for the state and contours of a closure.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub(crate) fn new(mechanism: &'a Mechanism, of: &Closure<Residue>) -> Result<Self, ExactError> {
         let closure = Closure::with_contours(&Reals, mechanism, of.state, of.contours.clone())?;
         let points: Vec<[f64; 3]> = mechanism
@@ -89,7 +90,7 @@ impl<'a> Shares<'a> {
         })
     }
 
-    /// The unit of an unknown: moments are counted by the size.
+    /// Returns the unit of an unknown: moments are divided by the size.
     fn unit(&self, row: usize) -> f64 {
         let (dim, of_contours) = (self.closure.dim, self.closure.contour_rows());
         let turning = if dim == 6 { 3 } else { 1 };
@@ -100,16 +101,16 @@ impl<'a> Shares<'a> {
         }
     }
 
-    /// ℓ, the size of the mechanism: the root mean square distance of the joints from their middle.
+    /// Returns ℓ, the size of the mechanism: the root mean square distance of the joints from their middle.
     pub(super) fn size(&self) -> f64 {
         self.size
     }
 
-    /// What each joint carries; `None` where the numbers do not tell the self-stress from others, or there
-    /// are too many of them.
+    /// Returns the load on each joint, or `None` if the numbers do not distinguish the self-stress from others, or if
+    /// there are too many of them.
     ///
     /// # Complexity
-    /// O(r² f) for r rows that are not zero and f freedoms in their contours.
+    /// O(r² f) for r nonzero rows and f freedoms in their contours.
     pub(super) fn of(
         &mut self,
         stress: &[Residue],
@@ -159,12 +160,12 @@ impl<'a> Shares<'a> {
     }
 }
 
-/// The solution, up to a factor, of homogeneous equations in `n` unknowns by elimination with complete pivoting; `None` where
-/// they have none or several.
+/// Returns the solution, up to a factor, of homogeneous equations in `n` unknowns by elimination with complete
+/// pivoting. Returns `None` if they have no solution or several.
 fn only_solution(mut rows: Vec<Vec<f64>>, n: usize) -> Option<Vec<f64>> {
-    // By place in the elimination, the unknown there.
+    // The unknown at each position of the elimination.
     let mut order: Vec<usize> = (0..n).collect();
-    // Rows of turns, shifts and faces alike weigh as one.
+    // Rows of turns, shifts and faces are scaled to equal weight.
     for row in &mut rows {
         let greatest = row.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         row.iter_mut()

@@ -1,4 +1,4 @@
-//! The self-stresses of a mechanism, part by part: which constraints they load, and which releases remove them.
+//! The self-stresses of a mechanism, part by part: the constraints they load, and the releases that remove them.
 
 use crate::closure::twist::MotionSpace;
 use crate::closure::{Closure, Part};
@@ -13,14 +13,14 @@ use crate::redundancy::release::{ALIKE, Duplicate, Release, norm, orthonormal, p
 use itertools::Itertools;
 use ozols_dense::{Matrix, Svd, solve, svd};
 
-/// A share of a stress of unit length below this is none.
+/// Share of a stress of unit length below which it counts as zero.
 const NOTHING: f64 = 1e-6;
-/// A release that the others leave less work than this does not count: digits decide it.
+/// Minimum remaining work of a release, below which rounding decides it.
 const LEAST: f64 = 1e-5;
-/// One that does so much work, as a share of the most that any does, does well.
+/// Share of the largest work of any release from which on a release is effective.
 const WELL: f64 = 0.03;
 
-/// The self-stresses of a part of a mechanism in numbers: of joints that share contours and couplings with no others.
+/// The self-stresses of a part of a mechanism in numbers. Its joints share no contours and couplings with others.
 #[derive(Debug)]
 pub struct Stressed<'a> {
     mechanism: &'a Mechanism,
@@ -29,27 +29,27 @@ pub struct Stressed<'a> {
     closure: Closure<f64>,
     /// The joints of the part.
     pub joints: Vec<JointId>,
-    /// Which contours of the state are those of the part.
+    /// Indices of the contours of the state in the part.
     contours: Vec<usize>,
-    /// Which couplings of the state are those of the part.
+    /// Indices of the couplings of the state in the part.
     pub couplings: Vec<usize>,
     scaling: Scaling,
-    /// An orthonormal basis by columns, in the rows of the scaled J.
+    /// An orthonormal basis as columns, in the rows of the scaled J.
     basis: Matrix,
 }
 
 impl<'a> Stressed<'a> {
-    /// Returns the self-stresses where J has a rank, part by part, of the parts that have any; none where singular values do
-    /// not converge.
+    /// Returns the self-stresses if J has a rank, for each part that has any. Returns `None` if singular values do not
+    /// converge.
     ///
     /// # Guarantee
-    /// Numeric: as good as the rank, and the gap in the singular values that it stands on.
+    /// Numeric: as reliable as the rank, and the gap in the singular values that it is based on.
     ///
     /// # Complexity
     /// One decomposition of J of each part.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn parts(
         m: &'a Mechanism,
         state: StateId,
@@ -84,7 +84,7 @@ impl<'a> Stressed<'a> {
         Ok(Some(all.filter(|p| p.redundant() > 0).collect()))
     }
 
-    /// σ.
+    /// Returns σ.
     #[must_use]
     pub fn redundant(&self) -> usize {
         self.basis.ncols()
@@ -94,7 +94,8 @@ impl<'a> Stressed<'a> {
         real(&self.mechanism.joints[joint].frame.point)
     }
 
-    /// What a vector of twist components, scaled, does in the rows of the contours that pass a joint: one number a stress.
+    /// Returns the power of a vector of scaled twist components in the rows of the contours that pass a joint: one
+    /// number per stress.
     fn powers_of(&self, joint: JointId, twist: &[f64]) -> Vec<f64> {
         let dim = self.closure.dim;
         let mut out = vec![0.0; self.redundant()];
@@ -112,7 +113,7 @@ impl<'a> Stressed<'a> {
         out
     }
 
-    /// The twist of a freedom, scaled to unit length; none of one that leaves the plane of a planar model.
+    /// Returns the twist of a freedom, scaled to unit length, or `None` if it leaves the plane of a planar model.
     fn twist(&self, joint: JointId, slides: bool, d: Vector) -> Option<Vec<f64>> {
         let v = if slides {
             d
@@ -126,7 +127,7 @@ impl<'a> Stressed<'a> {
         Some(twist)
     }
 
-    /// The work of each self-stress on a release.
+    /// Returns the work of each self-stress on a release.
     #[must_use]
     pub fn powers(&self, release: &Release) -> Vec<f64> {
         match *release {
@@ -148,7 +149,7 @@ impl<'a> Stressed<'a> {
         }
     }
 
-    /// Forces, or moments about its point, that a joint carries: three numbers a stress, by columns.
+    /// Returns the forces on a joint, or the moments about its point: three numbers per stress, by columns.
     fn carried(&self, joint: JointId, forces: bool) -> Matrix {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let rows = axes.map(|a| match self.twist(joint, forces, a) {
@@ -158,8 +159,8 @@ impl<'a> Stressed<'a> {
         Matrix::from_fn(3, self.redundant(), |i, s| rows[i][s])
     }
 
-    /// The single freedoms that the joint has not and that a self-stress works on, about and along directions that fit the
-    /// forces and moments it carries: slides first.
+    /// Returns the single freedoms that the joint lacks and on which a self-stress does work. Their directions fit the
+    /// forces and moments on the joint, and slides come first.
     #[must_use]
     pub fn at(&self, joint: JointId) -> Vec<Release> {
         let directions = self.directions(joint);
@@ -188,8 +189,8 @@ impl<'a> Stressed<'a> {
             .collect()
     }
 
-    /// Three square directions at a joint: along the one force or moment it carries, square to the plane of two, and else its
-    /// own axes.
+    /// Returns three perpendicular directions at a joint: along the single force or moment on it, perpendicular to the
+    /// plane of two, and otherwise its own axes.
     fn directions(&self, joint: JointId) -> [Vector; 3] {
         let frame = &self.mechanism.joints[joint].frame;
         let z = unit(real(&frame.axis));
@@ -208,7 +209,7 @@ impl<'a> Stressed<'a> {
         let Some(first) = forces.or(moments).map(|d| settled(d, &own)) else {
             return own;
         };
-        // The other two as the moments ask for them, or as the joint's own axes lie.
+        // The other two follow the moments, or the joint's own axes.
         let wanted = moments.into_iter().chain(own);
         let mut wanted = wanted.map(|d| across(d, first));
         let second = wanted.find(|d| length(*d) > 0.1).map(unit);
@@ -217,16 +218,16 @@ impl<'a> Stressed<'a> {
         [first, second, unit(cross(first, second))].map(positive)
     }
 
-    /// The cheapest set of releases that removes all redundant constraints and lets nothing move, by their places in the
-    /// list; fewer than σ where no such set is among them.
+    /// Returns the cheapest set of releases that removes all redundant constraints and adds no mobility, by their
+    /// indices in the list. Fewer than σ if no such set is among them.
     #[must_use]
     pub fn cheapest(&self, candidates: &[(i64, Release)]) -> Vec<usize> {
         self.chosen(candidates, &|i, _| candidates[i].0)
     }
 
-    /// A set of that kind, chosen one by one, each the cheapest of those that remove more: by costs that may rest on those
-    /// chosen before. Where they do, the whole need not be the cheapest. What hardly works on a stress is chosen only where
-    /// nothing else is left: it would have to move far to let little go.
+    /// Returns a set of releases chosen one by one, each the cheapest of those that remove more. Costs may depend on
+    /// those chosen before, and the whole set is then not necessarily the cheapest. A release that hardly works on a
+    /// stress is chosen only as a last resort, because it would have to move far.
     #[must_use]
     pub fn chosen(
         &self,
@@ -257,7 +258,7 @@ impl<'a> Stressed<'a> {
             };
             let alike = left.iter().filter(|(i, _)| cost(*i, &chosen) == least);
             let most = alike.clone().fold(0.0, |m: f64, (_, x)| m.max(*x));
-            // The first that does about as well as the best.
+            // The first that is about as good as the best.
             let Some(&(i, _)) = alike.clone().find(|(_, x)| *x > most / 2.0) else {
                 break;
             };
@@ -268,7 +269,8 @@ impl<'a> Stressed<'a> {
         chosen
     }
 
-    /// What is redundant, as constraints of the candidates preferred, each with what holds the same and what removes it.
+    /// Returns the redundant constraints, expressed in the preferred candidates, each with the joints that impose the
+    /// same and the releases that remove it.
     #[must_use]
     pub fn duplicates(
         &self,
@@ -286,7 +288,7 @@ impl<'a> Stressed<'a> {
         by_cost.sort_by_key(|&i| remedies[i].0);
         let works: Vec<Vec<f64>> = remedies.iter().map(|(_, r)| self.powers(r)).collect();
         let duplicate = |i: usize| {
-            // The stress that works on this row alone of those chosen.
+            // The stress that works only on this one of the chosen rows.
             let mut right = vec![0.0; n];
             right[i] = 1.0;
             let weights = solve(&matrix, &right);
@@ -326,7 +328,8 @@ impl<'a> Stressed<'a> {
     }
 }
 
-/// A direction taken for one of the global or own axes where it is hardly another; its largest component positive.
+/// Returns a direction, replaced by one of the global or own axes if it is almost equal; its largest component is
+/// positive.
 fn settled(d: Vector, own: &[Vector; 3]) -> Vector {
     let global = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let near = |a: &&Vector| length(cross(**a, d)) < ALIKE;
