@@ -1,17 +1,17 @@
 //! Numbers, phrases and tables as text, for everything that writes for people or for other programs.
 //!
-//! Numbers as text. Every measured figure has one of these styles:
+//! Every measured figure has one of these styles:
 //!
 //! | style | digits | 1234.5678 | 2 | 0.00001 | for |
 //! |---|---|---|---|---|---|
-//! | [`significant`] | 4 at most | 1235 | 2 | 1e-5 | sentences and tables |
-//! | [`figure`] | 5, as many in every row | 1234.6 | 2.0000 | 1.0000e-5 | columns of forces |
-//! | [`brief`] | 3 | 1235 | 2.00 | 1.00e-5 | a difference told in passing |
-//! | [`scientific`] | 2 at most | 1235 | 2 | 1e−5 | tolerances and noise in captions |
-//! | [`tooltip`] | 6 at most | 1234.57 | 2 | 1e−5 | points of a chart |
+//! | [`significant`] | at most 4 | 1235 | 2 | 1e-5 | sentences and tables |
+//! | [`figure`] | 5, the same in every row | 1234.6 | 2.0000 | 1.0000e-5 | columns of forces |
+//! | [`brief`] | 3 | 1235 | 2.00 | 1.00e-5 | a difference mentioned briefly |
+//! | [`scientific`] | at most 2 | 1235 | 2 | 1e−5 | tolerances and noise in captions |
+//! | [`tooltip`] | at most 6 | 1234.57 | 2 | 1e−5 | points of a chart |
 //! | [`decimals`] | to a given decimal | 1234.57 | 2 | 0 | coordinates |
 //!
-//! Whole numbers that may be large are [`grouped`], costs are written by [`cost`], times by [`duration`].
+//! Whole numbers that may be large use [`grouped`], costs use [`cost`], and times use [`duration`].
 
 pub mod csv;
 pub mod did_you_mean;
@@ -19,17 +19,17 @@ pub mod plain;
 
 use std::ops::Range;
 
-/// "1 redundant constraint", "2 redundant constraints".
+/// Formats a count with its noun: "1 redundant constraint", "2 redundant constraints".
 pub fn plural(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// The same of a number that is written already: "1 variant", "25,761,436 variants".
+/// Formats a count that is already text with its noun: "1 variant", "25,761,436 variants".
 pub fn plural_of(n: &str, what: &str) -> String {
     format!("{n} {what}{}", if n == "1" { "" } else { "s" })
 }
 
-/// "a, b or c".
+/// Formats a list of alternatives: "a, b or c".
 pub fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
     let mut all: Vec<&str> = of.into_iter().collect();
     match (all.pop(), all.is_empty()) {
@@ -38,7 +38,7 @@ pub fn disjunction<'a>(of: impl IntoIterator<Item = &'a str>) -> String {
     }
 }
 
-/// "a", "a and b", "a, b and c".
+/// Formats a list: "a", "a and b", "a, b and c".
 pub fn list<T: AsRef<str>>(of: &[T]) -> String {
     match of {
         [] => String::new(),
@@ -50,13 +50,13 @@ pub fn list<T: AsRef<str>>(of: &[T]) -> String {
     }
 }
 
-/// How a number of any size is written.
+/// Style of a number of any size.
 struct Style {
     /// Significant digits.
     digits: i32,
-    /// Powers of ten of the first digit that do without an exponent.
+    /// Powers of ten of the first digit that are written without an exponent.
     plain: Range<i32>,
-    /// Whether zeros at the end are kept.
+    /// Whether trailing zeros are kept.
     padded: bool,
 }
 
@@ -80,7 +80,7 @@ impl Style {
     }
 }
 
-/// A decimal without the zeros that end it.
+/// Removes the trailing zeros of a decimal.
 fn trimmed(text: &str) -> &str {
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.')
@@ -89,8 +89,7 @@ fn trimmed(text: &str) -> &str {
     }
 }
 
-/// A measured number to four significant digits: 12.35, 0.001235, 1.235e-7. What rounds to nothing beside everything else
-/// is nothing.
+/// Formats a measured number to four significant digits: 12.35, 0.001235, 1.235e-7. Rounding noise is written as 0.
 pub fn significant(x: f64) -> String {
     let style = Style {
         digits: 4,
@@ -100,7 +99,7 @@ pub fn significant(x: f64) -> String {
     style.write(if x.abs() < 1e-9 { 0.0 } else { x })
 }
 
-/// A value of a column, with five significant figures; a dash where there is none.
+/// Formats a value of a column with five significant figures, or a dash if there is none.
 pub fn figure(x: f64) -> String {
     if !x.is_finite() {
         return "-".to_owned();
@@ -113,7 +112,7 @@ pub fn figure(x: f64) -> String {
     style.write(x)
 }
 
-/// A number told in passing, with three figures.
+/// Formats a number mentioned briefly, with three figures.
 pub fn brief(x: f64) -> String {
     let style = Style {
         digits: 3,
@@ -123,7 +122,7 @@ pub fn brief(x: f64) -> String {
     style.write(x)
 }
 
-/// A power of ten or a short decimal, with a true minus: 1e−9, 3.2e−10, 1.
+/// Formats a power of ten or a short decimal, with a true minus: 1e−9, 3.2e−10, 1.
 pub fn scientific(x: f64) -> String {
     let style = Style {
         digits: 2,
@@ -133,7 +132,7 @@ pub fn scientific(x: f64) -> String {
     minus(&style.write(x))
 }
 
-/// A value to six digits, with a true minus.
+/// Formats a value to six digits, with a true minus.
 pub fn tooltip(x: f64) -> String {
     let style = Style {
         digits: 6,
@@ -143,7 +142,7 @@ pub fn tooltip(x: f64) -> String {
     minus(&style.write(x))
 }
 
-/// A figure rounded to so many digits, for files whose bytes must not depend on the last bits.
+/// Rounds a figure to `digits` digits, for files whose bytes must not depend on the last bits.
 pub fn rounded(x: f64, digits: i32) -> f64 {
     let style = Style {
         digits,
@@ -153,7 +152,7 @@ pub fn rounded(x: f64, digits: i32) -> f64 {
     style.write(x).parse().unwrap_or(x)
 }
 
-/// A number to so many decimals, without zeros at the end and without a negative zero.
+/// Formats a number with at most `most` decimals, without trailing zeros and without a negative zero.
 pub fn decimals(x: f64, most: usize) -> String {
     let text = format!("{x:.most$}");
     match trimmed(&text) {
@@ -162,7 +161,7 @@ pub fn decimals(x: f64, most: usize) -> String {
     }
 }
 
-/// A whole number with groups of three: 13,841,287,201.
+/// Formats a whole number in groups of three: 13,841,287,201.
 pub fn grouped(number: impl ToString) -> String {
     let number = number.to_string();
     let first = usize::from(number.starts_with('-'));
@@ -176,14 +175,14 @@ pub fn grouped(number: impl ToString) -> String {
     out
 }
 
-/// A cost in thousandths as a decimal: 11.5.
+/// Formats a cost in thousandths as a decimal: 11.5.
 pub fn cost(milli: i64) -> String {
     let (sign, size) = (if milli < 0 { "-" } else { "" }, milli.unsigned_abs());
     let text = format!("{sign}{}.{:03}", size / 1000, size % 1000);
     trimmed(&text).to_owned()
 }
 
-/// A time in the unit that suits it: 4.2 µs, 30 h.
+/// Formats a time in a suitable unit: 4.2 µs, 30 h.
 pub fn duration(seconds: f64) -> String {
     const HOUR: f64 = 3600.0;
     let (value, unit) = match seconds {
@@ -200,12 +199,12 @@ pub fn duration(seconds: f64) -> String {
     format!("{value:.decimals$} {unit}")
 }
 
-/// A difference with its sign, a true minus: −3, +1.
+/// Formats a difference with its sign, using a true minus: −3, +1.
 pub fn signed(x: i64) -> String {
     minus(&format!("{x:+}"))
 }
 
-/// A number's text with a true minus sign.
+/// Replaces the minus in a number's text by a true minus sign.
 pub fn minus(text: &str) -> String {
     text.replace('-', "\u{2212}")
 }

@@ -1,9 +1,10 @@
-//! Comma-separated values as RFC 4180 has them, with bare line feeds.
+//! Comma-separated values as in RFC 4180, with bare line feeds.
 
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// A cell that no spreadsheet takes for a formula: words that begin like one get an apostrophe before them, numbers stay.
+/// Returns a cell that no spreadsheet interprets as a formula. Words that begin like one get an apostrophe before them,
+/// numbers stay unchanged.
 pub(crate) fn cell(text: &str) -> Cow<'_, str> {
     let formula = text.len() > 1 && text.starts_with(['=', '+', '-', '@']);
     if formula && text.parse::<f64>().is_err() {
@@ -12,7 +13,7 @@ pub(crate) fn cell(text: &str) -> Cow<'_, str> {
     Cow::Borrowed(text)
 }
 
-/// A `cell` as it stands in a line, quoted where it must be: for lines that are put together by hand.
+/// Returns a `cell` encoded for a line, quoted if necessary, for lines that are assembled separately.
 pub fn encoded(text: &str) -> String {
     if text.is_empty() {
         return String::new();
@@ -22,7 +23,7 @@ pub fn encoded(text: &str) -> String {
     line
 }
 
-/// A table with the heads of its columns, as text. What is too long to be held as a whole is written row by row of
+/// Returns a table with column heads, as text. Tables too long to hold in memory are written row by row with
 /// [`encoded`] cells.
 pub fn table<Row, Cell>(heads: &[&str], rows: impl IntoIterator<Item = Row>) -> String
 where
@@ -38,8 +39,8 @@ where
     text(written, out)
 }
 
-/// A table of one row a value, under the names of its fields. Figures are to be text already: how many digits they have is
-/// not for this to say.
+/// Returns a table of one row per value, with the field names as heads. Figures must be text already, because their
+/// number of digits is not decided here.
 pub fn records<Row: Serialize>(rows: impl IntoIterator<Item = Row>) -> String {
     let mut out = csv::Writer::from_writer(Vec::new());
     let mut written = Ok(());

@@ -1,39 +1,40 @@
-//! Foreign text as it may stand before a person: no character of it steers the terminal.
+//! Foreign text made safe for display: no character of it controls the terminal.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Whether a character turns the order of letters round: the marks, embeddings and isolates of Unicode's bidirectional text.
+/// Returns true if a character changes the direction of letters: the marks, embeddings and isolates of Unicode's
+/// bidirectional text.
 #[must_use]
 pub fn turns(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A text with such characters spelt out, as `\u{202e}`.
+/// Returns a text with such characters spelt out, as `\u{202e}`.
 #[must_use]
 pub fn straight(text: &str) -> Cow<'_, str> {
     spelt(text, turns)
 }
 
-/// Whether a character does something else than stand for itself: what steers terminals, and what turns the order of letters
-/// round. Ends of lines and tabulators are let through.
+/// Returns true if a character does anything other than display itself: terminal control characters, and those that
+/// change the direction of letters. Line ends and tabs are allowed.
 fn steers(c: char) -> bool {
     turns(c) || c.is_control() && !matches!(c, '\n' | '\t')
 }
 
-/// A text with such characters spelt out, as `\u{1b}`.
+/// Returns a text with such characters spelt out, as `\u{1b}`.
 #[must_use]
 pub fn plain(text: &str) -> Cow<'_, str> {
     spelt(text, steers)
 }
 
-/// The same for a line or a cell: ends of lines are spelt out, too.
+/// Returns a text made safe for a line or a cell: line ends are spelt out, too.
 #[must_use]
 pub fn line(text: &str) -> Cow<'_, str> {
     spelt(text, |c| steers(c) || c == '\n')
 }
 
-/// A text that has colours of ours: those are let through, `ESC [ 1 m`, and nothing else.
+/// Returns a text made safe except for our own colour sequences, such as `ESC [ 1 m`, which are kept.
 #[must_use]
 pub fn coloured(text: &str) -> Cow<'_, str> {
     if !text.chars().any(steers) {
