@@ -1,7 +1,7 @@
-//! The kernel of ozols: exact geometry, the closure equations of a mechanism, their rank by every method, redundant
-//! constraints contour by contour, and the search for what removes them.
+//! The kernel of ozols: exact geometry, the closure equations of a mechanism, and their rank by every method. It also
+//! finds redundant constraints contour by contour, and searches for redesigns that remove them.
 //!
-//! It knows neither files nor forces; `ozols` is the front door.
+//! It contains no file formats and no forces; `ozols` is the main crate.
 
 pub mod closure;
 #[doc(hidden)]

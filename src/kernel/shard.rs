@@ -1,32 +1,32 @@
-//! Parts of a long work that many machines share: by a hash of the names of its pieces, so that each can tell its own.
+//! Shards of a long computation that many machines share. A hash of the names of its pieces assigns them to shards.
 
 use sha2::{Digest as _, Sha256};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A part of a work: part `index` of `of`, from 0. In words it is counted from 1: `1/7`.
+/// A shard of a computation: part `index` of `of`, from 0. In text it is counted from 1: `1/7`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which.
+    /// Index of the shard.
     pub index: u64,
-    /// Of how many.
+    /// Number of shards.
     pub of: u64,
 }
 
-/// What is no part.
+/// Error for a shard that does not exist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("a part is written 1/7, the first of seven")]
 pub struct NoShard;
 
 impl Shard {
-    /// The whole.
+    /// The whole computation.
     pub const WHOLE: Shard = Shard { index: 0, of: 1 };
 
-    /// Part `index` of `of`, from 1.
+    /// Returns shard `index` of `of`, counted from 1.
     ///
     /// # Errors
-    /// Where there is no such part.
+    /// Returns an error if `index` is 0 or exceeds `of`.
     pub fn nth(index: u64, of: u64) -> Result<Shard, NoShard> {
         match index.checked_sub(1) {
             Some(index) if index < of => Ok(Shard { index, of }),
@@ -34,7 +34,7 @@ impl Shard {
         }
     }
 
-    /// Whether a piece of this name belongs to it. Every piece belongs to one of the parts.
+    /// Returns true if a piece with this name belongs to the shard. Every piece belongs to exactly one shard.
     #[must_use]
     pub fn has(self, name: &str) -> bool {
         let digest = Sha256::digest(name);
