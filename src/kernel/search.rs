@@ -1,10 +1,12 @@
-//! Every redesign at once: the span diagram, exact counts on it, the best variants in order, and a brute-force twin.
+//! Finds every redesign at once: the span diagram, exact counts on it, the best variants in order, and a brute-force
+//! reference implementation.
 //!
-//! A *variant* chooses one option at each joint. A diagram node is what a partly chosen mechanism looks like to the
-//! joints not chosen yet: what the choices add to the motions of the present joints, in the space dual to its self-stresses and
-//! within what the joints to come still reach, plus the redundancy spent so far. Different choices with the same node have the
-//! same futures, so a space of 10^10 variants folds into some hundred nodes and is counted without visiting any variant. With a
-//! searched state a node is the space of motions of the links that still have joints to come.
+//! A *variant* chooses one option at each joint. A diagram node is the state of a partly chosen mechanism as seen by
+//! the joints not chosen yet. It consists of the vectors that the choices add to the motions of the original joints,
+//! and the redundancy so far. The vectors are in the space dual to the self-stresses, restricted to what the remaining
+//! joints can still reach. Different choices with the same node have the same completions. So a space of 10^10 variants
+//! reduces to a few hundred nodes and is counted without visiting any variant. With a searched state, a node is the
+//! space of motions of the links that still have joints to choose.
 
 pub mod answer;
 pub mod build;
@@ -35,13 +37,13 @@ use num_bigint::BigUint;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A search: a question made ready, the diagrams that answer it, and what is read off them.
+/// A search: a prepared problem, its diagrams, and the results read from them.
 #[derive(Debug)]
 pub struct Search {
     question: Question,
 }
 
-/// What is asked can be looked at wherever the search is.
+/// Gives access to the problem from the search.
 impl Deref for Search {
     type Target = Question;
 
@@ -51,10 +53,10 @@ impl Deref for Search {
 }
 
 impl Search {
-    /// Makes a search ready; a mechanism given by reference is copied.
+    /// Prepares a search. A mechanism given by reference is copied.
     ///
     /// # Errors
-    /// Where the geometry has no exact image, or symmetry is asked of an unsymmetric file.
+    /// Returns an error if the geometry has no exact image, or if symmetry is required of an unsymmetric file.
     pub fn new(
         exact: ExactField,
         mechanism: impl Into<Arc<Mechanism>>,
@@ -64,7 +66,7 @@ impl Search {
         Ok(Search { question })
     }
 
-    /// The orders in which both diagrams take the variables; a twin over another prime may be given them.
+    /// Returns the variable orders of both diagrams. A reference search over another prime may use them.
     #[must_use]
     pub fn orders(&self) -> Orders {
         build::orders::orders(self)
@@ -79,7 +81,7 @@ impl Search {
         build::build(self, cancelled, progress)
     }
 
-    /// The same in given orders.
+    /// Builds the diagrams in given orders.
     pub fn build_in(
         &self,
         orders: &Orders,
@@ -89,20 +91,20 @@ impl Search {
         build::build_in(self, orders, cancelled, progress)
     }
 
-    /// Whether all [minimal variants](Self::minimal_variants) of another search are determinate here; `None` where that is not told
-    /// without diagrams.
+    /// Returns whether all [minimal variants](Self::minimal_variants) of another search are determinate here, or `None`
+    /// if that cannot be decided without diagrams.
     #[must_use]
     pub fn has_all(&self, known: &Diagram) -> Option<bool> {
         build::known_variants::has_all(self, known)
     }
 
-    /// Counts the variants of a diagram; `filter` applies the conditions on mobility and changes too.
+    /// Returns the counts of the variants of a diagram; `filter` also applies the conditions on mobility and changes.
     #[must_use]
     pub fn counts(&self, diagram: &Diagram, filter: bool) -> Counts {
         counts::counts(self, diagram, filter)
     }
 
-    /// The admissible variants, cheapest first; `top` of them at most.
+    /// Returns at most `top` admissible variants, cheapest first.
     pub fn cheapest<'a>(
         &'a self,
         diagrams: &'a Diagrams,
@@ -111,7 +113,7 @@ impl Search {
         variants_in_order::cheapest(self, diagrams, top)
     }
 
-    /// Draws admissible variants without end, each with the same chance.
+    /// Returns an endless sample of admissible variants, each with the same probability.
     pub fn sample<'a>(
         &'a self,
         diagrams: &'a Diagrams,
@@ -120,11 +122,11 @@ impl Search {
         variants_in_order::sample(self, diagrams, seed)
     }
 
-    /// Judges variants by singular values instead, where exact arithmetic does not have the mechanism that is meant: `list` of the
-    /// cheapest, and a sample drawn from `seed`, where there are too many to look at each.
+    /// Tests variants by singular values, if exact arithmetic does not have the intended mechanism: `list` of the
+    /// cheapest, and a sample drawn from `seed`, if there are too many to test each.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn at_tolerance(
         &mut self,
         digits: Digits,
@@ -135,38 +137,41 @@ impl Search {
         at_tolerance::at_tolerance(&mut self.question, digits, list, seed, cancelled)
     }
 
-    /// How many admissible variants are minimal: no other has part of their freedoms. `None` where that is not counted.
+    /// Returns the number of minimal admissible variants: no other variant has only a part of their freedoms. Returns
+    /// `None` if that is not counted.
     #[must_use]
     pub fn minimal(&self, diagrams: &Diagrams) -> Option<BigUint> {
         least_freedoms::count(self, diagrams)
     }
 
-    /// The diagram of those minimal ones; `None` where what is admissible is not all known, or where it takes too many nodes.
+    /// Returns the diagram of the minimal variants. Returns `None` if not all admissible variants are known, or if it
+    /// takes too many nodes.
     #[must_use]
     pub fn minimal_variants(&self, diagrams: &Diagrams) -> Option<Diagram> {
         least_freedoms::diagram(self, diagrams, Less::Freedoms)
     }
 
-    /// The admissible variants that ideas are made of: those without another that has part of their freedoms and costs no more; all
-    /// where these are not known.
+    /// Returns the admissible variants that ideas consist of: those for which no other has only a part of their
+    /// freedoms and costs no more. Returns all if these are unknown.
     #[must_use]
     pub fn idea_variants(&self, diagrams: &Diagrams) -> Diagram {
         ideas::idea_variants(self, diagrams).into_owned()
     }
 
-    /// The first ideas, each of all minimal variants that give the same freedoms to the same contours; `top` of them at most.
+    /// Returns at most `top` first ideas, each of all minimal variants that give the same freedoms to the same
+    /// contours.
     pub fn ideas(&self, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
         ideas::ideas(self, diagrams, top)
     }
 
-    /// What they depend on besides variants and costs: of another search that has the same variants at the same costs they are the same
-    /// where this is.
+    /// Returns the basis of the ideas in addition to variants and costs. Two searches with the same variants, costs and
+    /// basis have the same ideas.
     #[must_use]
     pub fn idea_basis(&self) -> IdeaBasis {
         IdeaBasis::of(self)
     }
 
-    /// The same among those that [ideas are made of](Self::idea_variants), of this search's own basis.
+    /// Returns the ideas among the variants that [ideas consist of](Self::idea_variants), with this search's basis.
     pub fn ideas_among(&self, basis: &IdeaBasis, variants: &Diagram, top: usize) -> Vec<Idea> {
         ideas::ideas_in_steps(self, basis, variants, top, &mut 0)
     }
