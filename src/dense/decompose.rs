@@ -1,4 +1,4 @@
-//! Decompositions of a matrix, and what they solve.
+//! Decompositions of a matrix, and the problems they solve.
 
 use crate::matrix::Matrix;
 use faer::linalg::solvers::{Solve, SolveLstsq};
@@ -7,7 +7,7 @@ use faer::{Mat, Side};
 /// Singular values and vectors: A = U · diag(values) · Vᵀ.
 #[derive(Debug, Clone)]
 pub struct Svd {
-    /// The singular values, the largest first: as many as A has rows or columns, whichever is fewer.
+    /// The singular values, the largest first: as many as the smaller of A's numbers of rows and columns.
     pub values: Vec<f64>,
     /// Left singular vectors, by columns.
     pub u: Matrix,
@@ -16,35 +16,36 @@ pub struct Svd {
 }
 
 impl Svd {
-    /// How many singular values exceed this fraction of the largest.
+    /// Returns the number of singular values above this fraction of the largest.
     #[must_use]
     pub fn rank(&self, tolerance: f64) -> usize {
         let least = tolerance * self.values.first().copied().unwrap_or(0.0);
         self.values.iter().filter(|&&s| s > least).count()
     }
 
-    /// The vectors that A, taken for a matrix of this rank, sends to zero: by columns, orthonormal.
+    /// Returns the null space of A, treated as a matrix of this rank: orthonormal columns.
     ///
     /// # Panics
-    /// Where the rank exceeds the number of columns of A.
+    /// Panics if the rank exceeds the number of columns of A.
     #[must_use]
     pub fn null_space(&self, rank: usize) -> Matrix {
         self.v.cols(rank..self.v.ncols())
     }
 
-    /// The vectors that the transpose of A, taken for a matrix of this rank, sends to zero: by columns, orthonormal.
+    /// Returns the left null space of A, treated as a matrix of this rank: orthonormal columns.
     ///
     /// # Panics
-    /// Where the rank exceeds the number of rows of A.
+    /// Panics if the rank exceeds the number of rows of A.
     #[must_use]
     pub fn left_null_space(&self, rank: usize) -> Matrix {
         self.u.cols(rank..self.u.ncols())
     }
 
-    /// The shortest x for each right side at which A·x, with A taken for a matrix of this rank, comes nearest to it.
+    /// Returns the shortest x for each right side that minimises the distance of A·x from it, with A treated as a
+    /// matrix of this rank.
     ///
     /// # Panics
-    /// Where the right sides have not as many rows as A.
+    /// Panics if the right sides do not have as many rows as A.
     #[must_use]
     pub fn least_norm(&self, rank: usize, right: &Matrix) -> Matrix {
         let along = self.u.cols(0..rank).transpose_times(right);
@@ -53,7 +54,8 @@ impl Svd {
     }
 }
 
-/// All singular values and vectors, U and V square; `None` where the iteration does not converge or a value is not finite.
+/// Returns all singular values and vectors, with U and V square. Returns `None` if the iteration does not converge or a
+/// value is not finite.
 #[must_use]
 pub fn svd(a: &Matrix) -> Option<Svd> {
     if a.is_empty() {
@@ -67,7 +69,7 @@ pub fn svd(a: &Matrix) -> Option<Svd> {
     collected(&found)
 }
 
-/// As [`svd`], with as many columns in U and V as there are values.
+/// Works as [`svd`], with as many columns in U and V as there are values.
 #[must_use]
 pub fn thin_svd(a: &Matrix) -> Option<Svd> {
     if a.is_empty() {
@@ -91,7 +93,8 @@ fn collected(found: &faer::linalg::solvers::Svd<f64>) -> Option<Svd> {
     })
 }
 
-/// The singular values, the largest first; `None` where the iteration does not converge or a value is not finite.
+/// Returns the singular values, the largest first. Returns `None` if the iteration does not converge or a value is not
+/// finite.
 #[must_use]
 pub fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     if a.is_empty() {
@@ -101,8 +104,8 @@ pub fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     values.iter().all(|v| v.is_finite()).then_some(values)
 }
 
-/// The eigenvalues of a symmetric matrix, the least first, and its eigenvectors by columns; `None` where the iteration does
-/// not converge.
+/// Returns the eigenvalues of a symmetric matrix, the smallest first, and its eigenvectors by columns. Returns `None`
+/// if the iteration does not converge.
 #[must_use]
 pub fn symmetric_eigen(a: &Matrix) -> Option<(Vec<f64>, Matrix)> {
     let found = a.view().self_adjoint_eigen(Side::Lower).ok()?;
@@ -110,14 +113,15 @@ pub fn symmetric_eigen(a: &Matrix) -> Option<(Vec<f64>, Matrix)> {
     Some((values, Matrix::of(found.U())))
 }
 
-/// The x at which A·x comes nearest to the right side, by QR factors; A has at least as many rows as columns, and full rank.
+/// Returns the x that minimises the distance of A·x from the right side, by QR factors. A must have at least as many
+/// rows as columns, and full rank.
 #[must_use]
 pub fn least_squares(a: &Matrix, right: &[f64]) -> Vec<f64> {
     let x = a.view().qr().solve_lstsq(Matrix::column(right).view());
     first(&x, a.ncols())
 }
 
-/// As [`least_squares`], with columns exchanged for the sake of accuracy.
+/// Works as [`least_squares`], with column pivoting for accuracy.
 #[must_use]
 pub fn least_squares_pivoted(a: &Matrix, right: &[f64]) -> Vec<f64> {
     let factors = a.view().col_piv_qr();
@@ -127,14 +131,15 @@ pub fn least_squares_pivoted(a: &Matrix, right: &[f64]) -> Vec<f64> {
     )
 }
 
-/// The solution of a square system, by LU factors with partial pivoting; not finite where there is none.
+/// Returns the solution of a square system, by LU factors with partial pivoting. It is not finite if there is none.
 #[must_use]
 pub fn solve(a: &Matrix, right: &[f64]) -> Vec<f64> {
     let factors = a.view().partial_piv_lu();
     first(&factors.solve(Matrix::column(right).view()), a.ncols())
 }
 
-/// The solution of a symmetric positive definite system, by Cholesky factors; `None` where it is not positive definite.
+/// Returns the solution of a symmetric positive definite system, by Cholesky factors, or `None` if the matrix is not
+/// positive definite.
 #[must_use]
 pub fn solve_positive(a: &Matrix, right: &[f64]) -> Option<Vec<f64>> {
     let factors = a.view().llt(Side::Lower).ok()?;
@@ -148,7 +153,7 @@ fn first(x: &Mat<f64>, rows: usize) -> Vec<f64> {
     (0..rows).map(|r| x[(r, 0)]).collect()
 }
 
-/// The determinant of a square matrix.
+/// Returns the determinant of a square matrix.
 #[must_use]
 pub fn determinant(a: &Matrix) -> f64 {
     if a.nrows() == 0 {

@@ -1,11 +1,11 @@
-//! What a decomposition shows of a rank in the one or the other format of floating-point numbers.
+//! Rank-revealing values of a decomposition in either format of floating-point numbers.
 
 use crate::decompose::singular_values;
 use crate::matrix::Matrix;
 use faer::traits::{ComplexField, RealField};
 use faer::{Mat, MatRef};
 
-/// A format of floating-point numbers to eliminate in.
+/// A floating-point format for elimination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// 32 bits.
@@ -15,7 +15,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The absolute diagonal of U of LU factors with full pivoting.
+    /// Returns the absolute diagonal of U of LU factors with full pivoting.
     #[must_use]
     pub fn pivots(self, a: &Matrix) -> Vec<f64> {
         match self {
@@ -25,7 +25,7 @@ impl Format {
         }
     }
 
-    /// The absolute diagonal of R of QR factors with column pivoting.
+    /// Returns the absolute diagonal of R of QR factors with column pivoting.
     #[must_use]
     pub fn qr_diagonal(self, a: &Matrix) -> Vec<f64> {
         match self {
@@ -35,7 +35,8 @@ impl Format {
         }
     }
 
-    /// The singular values, the largest first; `None` where the iteration does not converge or a value is not finite.
+    /// Returns the singular values, the largest first. Returns `None` if the iteration does not converge or a value is
+    /// not finite.
     #[must_use]
     pub fn singular_values(self, a: &Matrix) -> Option<Vec<f64>> {
         if a.is_empty() || self == Format::Double {

@@ -1,7 +1,7 @@
-//! Dense matrices in floating point: a matrix, and its decompositions by plain functions.
+//! Dense matrices in floating point: a matrix type, and its decompositions as simple functions.
 //!
-//! The decompositions are those of faer, which is generic: each crate that calls it compiles what it calls anew, in each of
-//! its builds. Here that is done once, and `ozols` itself stays quick to compile.
+//! The decompositions come from faer, which is generic: each crate that calls it compiles the functions again, in each
+//! of its builds. Here they are compiled once, so `ozols` itself compiles quickly.
 
 mod decompose;
 mod format;

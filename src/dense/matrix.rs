@@ -1,4 +1,4 @@
-//! A matrix of doubles, by columns.
+//! A matrix of doubles, stored by columns.
 
 use faer::MatRef;
 use std::ops::{Index, IndexMut, Range};
@@ -8,12 +8,12 @@ use std::ops::{Index, IndexMut, Range};
 pub struct Matrix {
     rows: usize,
     columns: usize,
-    /// Column after column.
+    /// The entries, column after column.
     entries: Vec<f64>,
 }
 
 impl Matrix {
-    /// The matrix with the entry `at(row, column)` everywhere.
+    /// Creates the matrix with the entries `at(row, column)`.
     pub fn from_fn(rows: usize, columns: usize, mut at: impl FnMut(usize, usize) -> f64) -> Self {
         let mut entries = Vec::with_capacity(rows * columns);
         for c in 0..columns {
@@ -26,7 +26,7 @@ impl Matrix {
         }
     }
 
-    /// Zero everywhere.
+    /// Creates a matrix of zeros.
     #[must_use]
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Matrix {
@@ -36,13 +36,13 @@ impl Matrix {
         }
     }
 
-    /// One on the diagonal, zero elsewhere.
+    /// Creates a matrix with ones on the diagonal and zeros elsewhere.
     #[must_use]
     pub fn identity(rows: usize, columns: usize) -> Self {
         Matrix::from_fn(rows, columns, |r, c| if r == c { 1.0 } else { 0.0 })
     }
 
-    /// A single column.
+    /// Creates a matrix with a single column.
     #[must_use]
     pub fn column(entries: &[f64]) -> Self {
         Matrix {
@@ -52,45 +52,45 @@ impl Matrix {
         }
     }
 
-    /// How many rows.
+    /// Returns the number of rows.
     #[must_use]
     pub fn nrows(&self) -> usize {
         self.rows
     }
 
-    /// How many columns.
+    /// Returns the number of columns.
     #[must_use]
     pub fn ncols(&self) -> usize {
         self.columns
     }
 
-    /// Whether there is no entry.
+    /// Returns true if there are no entries.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
-    /// A column, from its first row on.
+    /// Returns a column, from its first row on.
     ///
     /// # Panics
-    /// Where there is no such column.
+    /// Panics if there is no such column.
     #[must_use]
     pub fn col(&self, column: usize) -> &[f64] {
         &self.entries[column * self.rows..(column + 1) * self.rows]
     }
 
-    /// A column, to write to.
+    /// Returns a mutable column.
     ///
     /// # Panics
-    /// Where there is no such column.
+    /// Panics if there is no such column.
     pub fn col_mut(&mut self, column: usize) -> &mut [f64] {
         &mut self.entries[column * self.rows..(column + 1) * self.rows]
     }
 
-    /// Some columns.
+    /// Returns some columns.
     ///
     /// # Panics
-    /// Where there are fewer columns.
+    /// Panics if there are fewer columns.
     #[must_use]
     pub fn cols(&self, range: Range<usize>) -> Matrix {
         Matrix {
@@ -100,19 +100,19 @@ impl Matrix {
         }
     }
 
-    /// The product with another matrix.
+    /// Returns the product with another matrix.
     ///
     /// # Panics
-    /// Where `other` has not as many rows as this has columns.
+    /// Panics if `other` does not have as many rows as this has columns.
     #[must_use]
     pub fn times(&self, other: &Matrix) -> Matrix {
         Matrix::of((self.view() * other.view()).as_ref())
     }
 
-    /// The product of the transpose with another matrix.
+    /// Returns the product of the transpose with another matrix.
     ///
     /// # Panics
-    /// Where the two have not as many rows.
+    /// Panics if the two have different numbers of rows.
     #[must_use]
     pub fn transpose_times(&self, other: &Matrix) -> Matrix {
         Matrix::of((self.view().transpose() * other.view()).as_ref())
@@ -121,7 +121,7 @@ impl Matrix {
     /// Adds a multiple of another matrix of the same shape.
     ///
     /// # Panics
-    /// Where the shapes differ.
+    /// Panics if the shapes differ.
     pub fn add_multiple(&mut self, factor: f64, other: &Matrix) {
         assert_eq!((self.rows, self.columns), (other.rows, other.columns));
         for (x, y) in self.entries.iter_mut().zip(&other.entries) {
