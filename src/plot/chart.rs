@@ -1,12 +1,12 @@
 //! Charts as self-contained SVG: lines on linear or log axes, bands of verdicts, and a page that gathers them.
 //!
-//! The SVG is written by our own helper. plotters and charts-rs fix the colours, so that one picture cannot be both light and
-//! dark. poloto has no log axis. charming runs V8. None of them keeps names at line ends apart. The `svg` crate puts spaces
-//! before superscripts and lets control characters through.
+//! The SVG is written by a helper in this crate. plotters and charts-rs fix the colours, so that one picture cannot be
+//! both light and dark. poloto has no log axis. charming runs V8. None of them keeps names at line ends apart. The
+//! `svg` crate puts spaces before superscripts and lets control characters through.
 //!
-//! Every picture carries its own style sheet with a light and a dark look, needs no script and no font file, and comes
-//! out byte for byte the same for the same input. A point that cannot be shown (not finite, beyond 1e300 on a linear
-//! axis, not positive on a log axis) is left out and breaks its line.
+//! Every picture has its own style sheet with a light and a dark look, and needs no script and no font file. It is byte
+//! for byte the same for the same input. A point that cannot be shown is omitted and breaks its line: a point that is
+//! not finite, beyond 1e300 on a linear axis, or not positive on a log axis.
 
 mod axes;
 mod axis;

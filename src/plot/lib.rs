@@ -1,4 +1,4 @@
-//! Charts of finished numbers, and the writer of SVG that they and the drawings share.
+//! Charts of finished numbers, and the SVG writer that they share with the drawings.
 
 use ozols_kernel::{format, geom};
 

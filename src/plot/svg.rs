@@ -1,4 +1,4 @@
-//! What pictures stand on: the writer of elements, the room that text takes, points and rectangles.
+//! Basis of all pictures: the writer of elements, the space that text takes, points and rectangles.
 
 pub mod plane;
 pub mod text;

@@ -1,4 +1,4 @@
-//! The two axes of a plot, and the place of points between them.
+//! The two axes of a plot, and the positions of points between them.
 
 use super::axis::{Label, Room, Ruler};
 use super::frame;
@@ -7,7 +7,7 @@ use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::Xml;
 
-/// An axis across, an axis up, and the rectangle that they span.
+/// A horizontal axis, a vertical axis, and the rectangle that they span.
 #[derive(Debug)]
 pub(super) struct PlotAxes {
     pub(super) plot: Rect,
@@ -17,8 +17,8 @@ pub(super) struct PlotAxes {
 }
 
 impl PlotAxes {
-    /// Axes that go down from `top` by `height` and end at `right`. They begin behind the labels of the axis up; `across` makes
-    /// the ruler for the room that is left.
+    /// Creates axes of this `height` that start at `top` and end at `right`. They begin behind the labels of the
+    /// vertical axis. `across` creates the ruler for the remaining space.
     pub(super) fn new(
         top: f64,
         height: f64,
@@ -43,7 +43,7 @@ impl PlotAxes {
         }
     }
 
-    /// Draws them with their names.
+    /// Draws the axes with their names.
     pub(super) fn draw(&self, xml: &mut Xml, across: &str, up: &str) {
         let plot = &self.plot;
         let label = text::cut(up, TICK, WIDTH - 2.0 * PAD);
@@ -55,7 +55,7 @@ impl PlotAxes {
         frame::stroke(xml, "axis", corners[0], corners[1]);
     }
 
-    /// Where a point is in the picture; none if it cannot be shown.
+    /// Returns the position of a point in the picture, or `None` if it cannot be shown.
     pub(super) fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let (across, up) = (self.x.place(x)?, self.y.place(y)?);
         let plot = &self.plot;

@@ -5,7 +5,7 @@ use crate::chart::style::{self, TICK};
 use crate::format::minus;
 use crate::svg::text;
 
-/// The range of an axis with its ticks; places are fractions of the axis from its low end.
+/// The range of an axis with its ticks; positions are fractions of the axis from its low end.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     scale: Scale,
@@ -13,16 +13,16 @@ pub(super) struct Ruler {
     hi: f64,
     /// Ticks from low to high.
     pub(super) ticks: Vec<Tick>,
-    /// Places of the unlabelled lines between decades.
+    /// Positions of the unlabelled lines between decades.
     pub(super) fine: Vec<f64>,
 }
 
 /// A tick.
 #[derive(Clone, Debug)]
 pub(super) struct Tick {
-    /// Where.
+    /// Position.
     pub(super) at: f64,
-    /// Its label; none where it would not fit.
+    /// Its label, or `None` if it would not fit.
     pub(super) label: Option<Label>,
 }
 
@@ -33,40 +33,40 @@ pub(super) struct Label {
     pub(super) power: Option<String>,
 }
 
-/// How the range follows from the values.
+/// Rule for the range of an axis, given the values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AxisFit {
-    /// From the least to the greatest value.
+    /// From the smallest to the largest value.
     Tight,
-    /// A little beyond both.
+    /// Slightly beyond both.
     Padded,
-    /// From tick to tick, with zero where it is near.
+    /// From tick to tick, with zero included if it is near.
     Round,
 }
 
-/// The room for labels, in pixels.
+/// Space for labels, in pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Room {
-    /// An axis across of this length, with this much space before and after it.
+    /// A horizontal axis of this length, with this much space before and after it.
     Across(f64, f64, f64),
-    /// An axis up of this length.
+    /// A vertical axis of this length.
     Up(f64),
 }
 
 impl Label {
-    /// A number as it is.
+    /// Creates a label without a power.
     pub(super) fn plain(base: String) -> Label {
         Label { base, power: None }
     }
 
-    /// Its width in pixels.
+    /// Returns its width in pixels.
     pub(super) fn width(&self) -> f64 {
         let power = self.power.as_deref().unwrap_or_default();
         text::width(&self.base, TICK) + text::width(power, style::RAISED)
     }
 }
 
-/// What the axis measures: the value or its decimal logarithm; none if it cannot be shown.
+/// Returns the quantity that the axis measures, the value or its decimal logarithm, or `None` if it cannot be shown.
 fn measure(scale: Scale, value: f64) -> Option<f64> {
     match scale {
         Scale::Linear => (value.abs() <= 1e300).then_some(value),
@@ -79,7 +79,7 @@ fn measure(scale: Scale, value: f64) -> Option<f64> {
 }
 
 impl Ruler {
-    /// The ruler for `values`.
+    /// Creates the ruler for `values`.
     pub(super) fn new(
         scale: Scale,
         values: impl Iterator<Item = f64>,
@@ -96,19 +96,19 @@ impl Ruler {
         let mut ruler = match scale {
             Scale::Linear => linear(lo, hi, fit, room),
             Scale::Log => log(lo, hi, fit, room, None),
-            // The zero is always on it.
+            // The axis always includes zero.
             Scale::LogAndZero(least) => log(lo.min(f64::from(least)), hi, fit, room, Some(least)),
         };
         ruler.drop_crowded(room);
         ruler
     }
 
-    /// Whether an axis can show `value`.
+    /// Returns true if an axis can show `value`.
     pub(super) fn shows(scale: Scale, value: f64) -> bool {
         measure(scale, value).is_some()
     }
 
-    /// Where `value` stands; none if it cannot be shown.
+    /// Returns the position of `value`, or `None` if it cannot be shown.
     pub(super) fn place(&self, value: f64) -> Option<f64> {
         measure(self.scale, value).map(|v| self.fraction(v))
     }
@@ -144,7 +144,7 @@ impl Ruler {
         left.ticks.iter().filter(|t| t.label.is_some()).count()
     }
 
-    /// Takes away the labels that would touch the one before or leave the picture.
+    /// Removes the labels that would touch the previous one or leave the picture.
     fn drop_crowded(&mut self, room: Room) {
         let Room::Across(length, before, after) = room else {
             return;
@@ -162,7 +162,7 @@ impl Ruler {
     }
 }
 
-/// How many steps to try, the best first.
+/// Returns the numbers of steps to try, the best first.
 fn counts(room: Room) -> impl Iterator<Item = f64> {
     let best = match room {
         Room::Across(length, ..) => length / 60.0,
@@ -204,7 +204,7 @@ fn linear(lo: f64, hi: f64, fit: AxisFit, room: Room) -> Ruler {
     ruler.unwrap_or_else(|| linear_by(lo, hi, 1.0, fit))
 }
 
-/// Ticks at a 1-2-5 step, about `count` steps in the range.
+/// Creates ticks at a 1-2-5 step, with about `count` steps in the range.
 fn linear_by(lo: f64, hi: f64, count: f64, fit: AxisFit) -> Ruler {
     let raw = hi / count - lo / count;
     let mut exponent = raw.log10().floor() as i32;
@@ -254,7 +254,7 @@ fn ten(exponent: i32) -> f64 {
     10_f64.powi(exponent)
 }
 
-/// `whole` times ten to the `exponent`, like its neighbours, the greatest of which is `most`.
+/// Formats `whole` times ten to the `exponent` like its neighbours, the largest of which is `most`.
 fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
     let plain = |base| Label { base, power: None };
     if whole == 0 {
@@ -275,7 +275,7 @@ fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
     }
 }
 
-/// By decades; one of them may stand for zero.
+/// Creates decades; one of them may represent zero.
 fn log(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
     let decades = |lo: f64, hi: f64| (hi + 1e-9).floor() - (lo - 1e-9).ceil() + 1.0;
     let (mut lo, mut hi) = if decades(lo, hi) >= 2.0 {

@@ -11,7 +11,7 @@ use crate::svg::xml::Xml;
 
 /// The height of a row.
 const ROW: f64 = 28.0;
-/// The kinds in the order of the legend, with what they mean.
+/// The kinds in the order of the legend, with their meanings.
 const MEANINGS: [(VerdictKind, &str); 4] = [
     (VerdictKind::Good, "right"),
     (VerdictKind::Warn, "in doubt"),
@@ -20,10 +20,10 @@ const MEANINGS: [(VerdictKind, &str); 4] = [
 ];
 
 impl Bands {
-    /// The bands as a self-contained SVG element, for a file of its own or inside HTML.
+    /// Returns the bands as a self-contained SVG element, for a separate file or inside HTML.
     ///
-    /// A band may end at infinity, or on a log axis at zero: it then reaches the edge. Bands differ in height as well as in
-    /// colour: right ones are the highest, wrong ones low.
+    /// A band may end at infinity, or on a log axis at zero. It then reaches the edge. Bands differ in height as well
+    /// as in colour: right ones are the highest, wrong ones low.
     pub fn svg(&self) -> String {
         let names = self.rows.iter().map(|r| text::width(r.0.trim(), TICK));
         let left = (PAD + names.fold(0.0, f64::max).min(250.0) + 12.0).max(48.0);
@@ -82,7 +82,7 @@ impl Bands {
         xml.finish()
     }
 
-    /// Where a band begins and ends; none if it lies nowhere on the axis.
+    /// Returns the start and end of a band, or `None` if it does not lie on the axis.
     fn places(&self, ruler: &Ruler, from: f64, to: f64) -> Option<(f64, f64)> {
         if from.is_nan() || to.is_nan() {
             return None;
@@ -97,7 +97,7 @@ impl Bands {
         ))
     }
 
-    /// What a screen reader says.
+    /// Returns the text for screen readers.
     fn about(&self) -> String {
         let rows = self.rows.iter().map(|(name, bands)| {
             let right = bands.iter().filter(|b| b.2 == VerdictKind::Good);
@@ -113,7 +113,7 @@ impl Bands {
     }
 }
 
-/// A band about the height `y`; the kind gives its colour and its height.
+/// Draws a band centred on the height `y`; the kind determines its colour and its height.
 fn bar(xml: &mut Xml, kind: VerdictKind, from: f64, to: f64, y: f64, tip: &str) {
     let height = match kind {
         VerdictKind::Good => 16.0,

@@ -1,17 +1,17 @@
-//! What is drawn: finished numbers with their names.
+//! The data of a chart: finished numbers with their names.
 
 /// Series over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What is shown.
+    /// The title.
     pub title: String,
-    /// One sentence under the title, or nothing.
+    /// One sentence under the title, or empty.
     pub subtitle: String,
-    /// The axis across.
+    /// The horizontal axis.
     pub x: Axis,
-    /// The axis up.
+    /// The vertical axis.
     pub y: Axis,
-    /// What is drawn, in the order of colours; up to fourteen can be told apart.
+    /// The series, in the order of colours; up to fourteen can be distinguished.
     pub series: Vec<Series>,
 }
 
@@ -20,7 +20,7 @@ pub struct Chart {
 pub struct Axis {
     /// The quantity, with its unit.
     pub label: String,
-    /// How values are spaced.
+    /// Spacing of the values.
     pub scale: Scale,
 }
 
@@ -32,36 +32,37 @@ impl Axis {
     }
 }
 
-/// How the values of an axis are spaced.
+/// Spacing of the values of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly.
     Linear,
     /// By decades.
     Log,
-    /// By decades, and zero where ten to this would stand, which is labelled so: less than that cannot be told from it.
+    /// By decades, with zero at the position of ten to this power, labelled 0. Smaller values cannot be distinguished
+    /// from it.
     LogAndZero(i32),
 }
 
 /// A named row of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// The name written beside it.
+    /// The name written next to it.
     pub name: String,
     /// Pairs of x and y, in drawing order.
     pub points: Vec<(f64, f64)>,
-    /// How it is drawn.
+    /// Style of drawing.
     pub style: Style,
 }
 
-/// How a series is drawn.
+/// Style of drawing of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// A solid line.
     Line,
     /// A dashed line.
     Dashed,
-    /// Points alone; the name stands beside the point where the series has one point.
+    /// Points only. If the series has one point, the name is next to it.
     Points,
     /// A line that holds each y until the next x.
     Steps,
@@ -92,17 +93,17 @@ impl VerdictKind {
     }
 }
 
-/// A stretch of an axis: from, to, and the verdict between them.
+/// An interval of an axis: from, to, and the verdict between them.
 pub type Band = (f64, f64, VerdictKind);
 
-/// Regions of an axis, row by row: where each of several methods is right.
+/// Regions of an axis, row by row: the intervals in which each of several methods is right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bands {
-    /// What is shown.
+    /// The title.
     pub title: String,
-    /// One sentence under the title, or nothing.
+    /// One sentence under the title, or empty.
     pub subtitle: String,
-    /// The axis across.
+    /// The horizontal axis.
     pub x: Axis,
     /// The name of each row with its bands.
     pub rows: Vec<(String, Vec<Band>)>,

@@ -1,4 +1,4 @@
-//! The series of a chart on paper: lines, marks, names.
+//! Drawing of the series of a chart: lines, marks, names.
 
 use super::data::{Series, Style};
 use super::{frame, labels};
@@ -8,13 +8,13 @@ use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Xml, number};
 
-/// The height between names in the margin.
+/// The vertical distance between names in the margin.
 pub(super) const STEP: f64 = 18.0;
-/// The length of the sample of a line before its name.
+/// The length of the line sample before a name.
 pub(super) const SAMPLE: f64 = 24.0;
 /// The space between the plot and the samples.
 pub(super) const LEAD: f64 = 16.0;
-/// A line of more points shows marks here and there only, and only among many series.
+/// Number of points above which a line has only a few marks, and only among many series.
 const SPARSE: usize = 40;
 
 /// The outline of a plus sign.
@@ -33,19 +33,19 @@ const PLUS: [(f64, f64); 12] = [
     (-0.45, -0.45),
 ];
 
-/// Neighbouring points that can be shown: the place in pixels and the point.
+/// Neighbouring points that can be shown: the position in pixels and the point.
 pub(super) type Run = Vec<((f64, f64), (f64, f64))>;
 
-/// A series on the way to the paper.
+/// A series prepared for drawing.
 #[derive(Debug)]
 pub(super) struct DrawnSeries<'a> {
-    /// Whether lines need marks to be told apart.
+    /// Whether lines need marks to be distinguished.
     pub(super) many: bool,
-    /// Its place among all series.
+    /// Its index among all series.
     pub(super) number: usize,
-    /// What is drawn.
+    /// The series.
     pub(super) series: &'a Series,
-    /// Its points, broken where one cannot be shown.
+    /// Its points, broken at those that cannot be shown.
     pub(super) runs: Vec<Run>,
 }
 
@@ -54,19 +54,19 @@ impl DrawnSeries<'_> {
         self.runs.iter().flatten().copied()
     }
 
-    /// The place of the point farthest right, the later of two.
+    /// Returns the position of the rightmost point, or the later of two.
     fn end(&self) -> Option<(f64, f64)> {
         self.points()
             .map(|(place, _)| place)
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// A point with its name beside it.
+    /// Returns true if it is a point with its name next to it.
     fn lone(&self) -> bool {
         self.series.style == Style::Points && self.points().count() == 1
     }
 
-    /// Whether every point has its mark.
+    /// Returns true if every point has its mark.
     fn marked(&self) -> bool {
         match self.series.style {
             Style::Points => true,
@@ -84,7 +84,7 @@ impl DrawnSeries<'_> {
     }
 }
 
-/// The points that can be shown, broken where one cannot.
+/// Returns the points that can be shown, broken at those that cannot.
 pub(super) fn runs(series: &Series, place: impl Fn((f64, f64)) -> Option<(f64, f64)>) -> Vec<Run> {
     let mut runs = vec![Vec::new()];
     for &point in &series.points {
@@ -100,7 +100,7 @@ pub(super) fn runs(series: &Series, place: impl Fn((f64, f64)) -> Option<(f64, f
     runs
 }
 
-/// The path through runs of places; held levels if `steps`.
+/// Returns the path through runs of positions, with held levels if `steps`.
 fn path(runs: &[Run], steps: bool) -> String {
     let mut out = String::new();
     for run in runs.iter().filter(|run| run.len() > 1) {
@@ -131,7 +131,7 @@ fn line_class(d: &DrawnSeries) -> String {
     format!("line{dash} c{}", d.colour())
 }
 
-/// The line and the points of a series.
+/// Draws the line and the points of a series.
 pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
     let style = d.series.style;
     xml.tag("g").open();
@@ -189,7 +189,7 @@ pub(super) fn body(xml: &mut Xml, d: &DrawnSeries) {
     xml.end();
 }
 
-/// The mark of a series: its shape, colour and filling say which.
+/// Draws the mark of a series, which is identified by its shape, colour and filling.
 fn mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) {
     let class = match (d.hollow(), d.series.style) {
         (true, _) => format!("hollow c{}", d.colour()),
@@ -219,7 +219,7 @@ fn mark(xml: &mut Xml, d: &DrawnSeries, x: f64, y: f64, r: f64, tip: &str) {
         .tip(tip);
 }
 
-/// The names of points that stand alone, each beside its point.
+/// Draws the names of single points, each next to its point.
 pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let lone = drawn
         .iter()
@@ -259,7 +259,7 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     }
 }
 
-/// The names of all other series in the margin, each near the end of its line and with a sample of it.
+/// Draws the names of all other series in the margin, each near the end of its line and with a sample of it.
 pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     let named = drawn
         .iter()

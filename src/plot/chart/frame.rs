@@ -1,4 +1,4 @@
-//! What every picture has: the root element, the title, axes across.
+//! Common parts of every picture: the root element, the title, horizontal axes.
 
 use super::axis::{Label, Ruler};
 use crate::chart::style::{PAD, STYLE, TICK};
@@ -14,7 +14,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    /// The lines for a picture of this width.
+    /// Creates the lines for a picture of this width.
     pub(super) fn new(title: &str, subtitle: &str, width: f64) -> Self {
         Head {
             title: text::wrap(title, 16.5, width - 2.0 * PAD),
@@ -22,7 +22,7 @@ impl Head {
         }
     }
 
-    /// How far down it reaches.
+    /// Returns the height.
     pub(super) fn height(&self) -> f64 {
         PAD + 23.0 * self.title.len() as f64 + 18.0 * self.subtitle.len() as f64 + 6.0
     }
@@ -43,7 +43,7 @@ impl Head {
     }
 }
 
-/// Begins a picture; `class` is added to its root, `about` is read out after the title.
+/// Begins a picture. `class` is added to its root, `about` is read out after the title.
 pub(super) fn begin(size: (f64, f64), class: &str, title: &str, about: &str, head: &Head) -> Xml {
     let (width, height) = (size.0.ceil(), size.1.ceil());
     let mut xml = Xml::default();
@@ -65,7 +65,7 @@ pub(super) fn begin(size: (f64, f64), class: &str, title: &str, about: &str, hea
     xml
 }
 
-/// A line between two points.
+/// Draws a line between two points.
 pub(super) fn stroke(xml: &mut Xml, class: &str, from: (f64, f64), to: (f64, f64)) {
     let line = xml
         .tag("line")
@@ -75,7 +75,7 @@ pub(super) fn stroke(xml: &mut Xml, class: &str, from: (f64, f64), to: (f64, f64
     line.num("x2", to.0).num("y2", to.1).close();
 }
 
-/// A tick's label; `anchor` is the SVG text anchor.
+/// Draws a tick's label; `anchor` is the SVG text anchor.
 pub(super) fn tick(xml: &mut Xml, label: &Label, at: (f64, f64), anchor: &str, class: &str) {
     let class = format!("soft {class}");
     let text = xml
@@ -94,7 +94,8 @@ pub(super) fn tick(xml: &mut Xml, label: &Label, at: (f64, f64), anchor: &str, c
     xml.end();
 }
 
-/// The axis across: lines over the plot from `top` to `bottom`, labels below, the name of the axis under them.
+/// Draws the horizontal axis: lines over the plot from `top` to `bottom`, labels below, and the name of the axis under
+/// them.
 pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &Rect) {
     let &Rect {
         left,
@@ -127,7 +128,7 @@ pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &Rect) {
     at.set("text-anchor", "end").text(&name);
 }
 
-/// The axis up: lines over the plot and labels before it.
+/// Draws the vertical axis: lines over the plot and labels before it.
 pub(super) fn up(xml: &mut Xml, ruler: &Ruler, plot: &Rect) {
     let &Rect {
         left,

@@ -1,12 +1,13 @@
-//! Where names go so that none touches another.
+//! Placement of names so that none touch each other.
 
 use crate::svg::plane::Rect;
 
-/// Heights at least `step` apart within `from..=to`, in the order of the wishes and as near to them as can be.
+/// Returns heights at least `step` apart within `from..=to`, in the order of the requested ones and as near to them as
+/// possible.
 ///
-/// The wishes must ascend. If the room is too small the last ones go below it.
+/// The requested heights must ascend. If there is too little space, the last ones go below it.
 pub(super) fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
-    // least squares under the order: pools of neighbours that push each other take their mean
+    // least squares with a fixed order: pools of neighbours that push each other take their mean
     let mut pools: Vec<(f64, usize)> = Vec::new();
     for (n, wish) in wishes.iter().enumerate() {
         let mut pool = (wish - n as f64 * step, 1);
@@ -33,8 +34,8 @@ pub(super) fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> 
         .collect()
 }
 
-/// The place for a name of the given width and height by each point: the first one that is free, or else the one that
-/// covers least.
+/// Returns the position for a name of the given width and height by each point: the first free one, or otherwise the
+/// one that covers least.
 pub(super) fn beside(points: &[(f64, f64)], sizes: &[(f64, f64)], room: Rect) -> Vec<Rect> {
     let mut taken: Vec<Rect> = points
         .iter()
@@ -76,7 +77,7 @@ pub(super) fn beside(points: &[(f64, f64)], sizes: &[(f64, f64)], room: Rect) ->
                 break;
             }
         }
-        // a name wider than the room starts at its left edge
+        // a name wider than the space starts at its left edge
         let rect = best.map_or(
             Rect {
                 left: room.left,

@@ -9,11 +9,11 @@ use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::csv;
 use crate::svg::text;
 
-/// A series with its place among all of them.
+/// A series with its index among all of them.
 type Numbered<'a> = (usize, &'a Series);
 
 impl Chart {
-    /// The chart as a self-contained SVG element, for a file of its own or inside HTML.
+    /// Returns the chart as a self-contained SVG element, for a separate file or inside HTML.
     pub fn svg(&self) -> String {
         let (shown, absent): (Vec<Numbered>, Vec<Numbered>) = self
             .series
@@ -55,18 +55,19 @@ impl Chart {
         xml.finish()
     }
 
-    /// Whether a point can be shown on both axes.
+    /// Returns true if a point can be shown on both axes.
     fn shows(&self, &(x, y): &(f64, f64)) -> bool {
         Ruler::shows(self.x.scale, x) && Ruler::shows(self.y.scale, y)
     }
 
-    /// The points that can be shown.
+    /// Returns the points that can be shown.
     fn seen(&self) -> impl Iterator<Item = &(f64, f64)> {
         let points = self.series.iter().flat_map(|s| &s.points);
         points.filter(|p| self.shows(p))
     }
 
-    /// The axes below `top`, as high as the names of series in the margin need, and as wide as those leave room for.
+    /// Returns the axes below `top`, as high as the names of series in the margin require, and as wide as those leave
+    /// space for.
     fn axes(&self, top: f64, shown: &[Numbered]) -> PlotAxes {
         let lone = |s: &Series| {
             s.style == Style::Points && s.points.iter().filter(|p| self.shows(p)).count() == 1
@@ -99,7 +100,7 @@ impl Chart {
         })
     }
 
-    /// The points in long form, one a line, under the heads `series,x,y`.
+    /// Returns the points in long form, one per line, under the heads `series,x,y`.
     pub fn csv(&self) -> String {
         let points = |s: &Series| {
             let one = |(x, y)| [s.name.clone(), format!("{x:?}"), format!("{y:?}")];
@@ -108,7 +109,7 @@ impl Chart {
         csv::table(&["series", "x", "y"], self.series.iter().flat_map(points))
     }
 
-    /// What a screen reader says.
+    /// Returns the text for screen readers.
     fn about(&self) -> String {
         let all: usize = self.series.iter().map(|s| s.points.len()).sum();
         let shown = self.seen().count();
@@ -132,7 +133,7 @@ impl Chart {
     }
 }
 
-/// Lines that tell which series have nothing to show.
+/// Returns lines that list the series with nothing to show.
 fn missing(absent: &[Numbered]) -> Vec<String> {
     let names = absent
         .iter()

@@ -1,15 +1,15 @@
-//! Closed curves at their true shape, such as the profile of a cam.
+//! Closed curves in their true shape, such as the profile of a cam.
 
 use super::frame::{Head, begin, stroke};
 use crate::chart::style::{PAD, WIDTH};
 use crate::format::{csv, significant};
 
-/// Closed curves on one centre.
+/// Closed curves around one centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
-    /// What is shown.
+    /// The title.
     pub title: String,
-    /// One sentence under the title, or nothing.
+    /// One sentence under the title, or empty.
     pub subtitle: String,
     /// Unit of the points.
     pub unit: String,
@@ -17,7 +17,7 @@ pub struct Outline {
     pub curves: Vec<(String, Vec<[f64; 2]>)>,
 }
 
-/// Across the drawing. `[px]`
+/// Width of the drawing. `[px]`
 const SIZE: f64 = 520.0;
 
 impl Outline {
@@ -26,7 +26,7 @@ impl Outline {
         all.map(|p| p[0].hypot(p[1])).fold(0.0, f64::max)
     }
 
-    /// The picture.
+    /// Returns the picture.
     #[must_use]
     pub fn svg(&self) -> String {
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
@@ -72,7 +72,7 @@ impl Outline {
         xml.finish()
     }
 
-    /// One point a line.
+    /// Returns one point per line.
     #[must_use]
     pub fn csv(&self) -> String {
         let point = |name: &str, p: &[f64; 2]| {
@@ -89,7 +89,7 @@ impl Outline {
         csv::table(&["curve", "x", "y"], rows)
     }
 
-    /// The curves as closed polylines of a DXF file (release 12, which every reader knows), one layer each.
+    /// Returns the curves as closed polylines of a DXF file (release 12, which every reader supports), one layer each.
     #[must_use]
     pub fn dxf(&self) -> String {
         let mut out = String::from("0\nSECTION\n2\nENTITIES\n");

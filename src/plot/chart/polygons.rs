@@ -1,4 +1,4 @@
-//! Vectors set head to tail, panel beside panel: plans of forces that close where they are in equilibrium.
+//! Vectors set head to tail in adjacent panels: force plans that close in equilibrium.
 
 use super::frame::{Head, begin, stroke};
 use crate::chart::style::{PAD, WIDTH};
@@ -10,23 +10,23 @@ use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};
 pub struct PlanArrow {
     /// Its name.
     pub name: String,
-    /// x to the right, y up.
+    /// Components, with x to the right and y up.
     pub vector: [f64; 2],
-    /// Which of the seven colours.
+    /// Index of one of the seven colours.
     pub colour: usize,
 }
 
 /// Vectors head to tail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// What is added up.
+    /// Title of the sum.
     pub title: String,
-    /// In order.
+    /// The vectors in order.
     pub arrows: Vec<PlanArrow>,
 }
 
 impl Panel {
-    /// The sum of the vectors: nothing where the plan closes.
+    /// Returns the size of the sum of the vectors, zero if the plan closes.
     #[must_use]
     pub fn gap(&self) -> f64 {
         norm(self.arrows.iter().fold([0.0; 2], |s, a| add(s, a.vector)))
@@ -39,7 +39,7 @@ impl Panel {
             .fold(0.0, f64::max)
     }
 
-    /// Heads of the vectors from the origin, y down.
+    /// Returns the heads of the vectors from the origin, y down.
     fn corners(&self) -> Vec<Point> {
         let mut at = [0.0; 2];
         let mut out = vec![at];
@@ -54,7 +54,7 @@ impl Panel {
 /// Two panels side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PanelPair {
-    /// Left and right.
+    /// The left and the right panel.
     pub panels: [Panel; 2],
     /// Whether both are drawn at one scale.
     pub one_scale: bool,
@@ -63,23 +63,23 @@ pub struct PanelPair {
 /// Plans in rows of two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygons {
-    /// What is shown.
+    /// The title.
     pub title: String,
-    /// One sentence under the title, or nothing.
+    /// One sentence under the title, or empty.
     pub subtitle: String,
     /// Unit of the vectors.
     pub unit: String,
-    /// The panels, two a row.
+    /// The panels, two per row.
     pub rows: Vec<PanelPair>,
 }
 
-/// Height of a plan, of a line of its list, and length of an arrowhead. `[px]`
+/// Height of a plan, height of a line of its list, and length of an arrowhead. `[px]`
 const PLAN: f64 = 230.0;
 const LINE: f64 = 15.0;
 const HEAD: f64 = 9.0;
 
 impl Polygons {
-    /// The picture.
+    /// Returns the picture.
     #[must_use]
     pub fn svg(&self) -> String {
         let head = Head::new(&self.title, &self.subtitle, WIDTH);
@@ -130,7 +130,7 @@ impl Polygons {
         xml.finish()
     }
 
-    /// The vectors by name and size.
+    /// Writes the vectors by name and size.
     fn list(&self, xml: &mut crate::svg::xml::Xml, panel: &Panel, [x, mut y]: Point) {
         for a in &panel.arrows {
             stroke(
@@ -162,7 +162,7 @@ impl Polygons {
             .text(&text);
     }
 
-    /// One vector a line.
+    /// Returns one vector per line.
     #[must_use]
     pub fn csv(&self) -> String {
         let panels = self.rows.iter().flat_map(|r| &r.panels);
@@ -214,7 +214,7 @@ fn plan(xml: &mut crate::svg::xml::Xml, panel: &Panel, is: &Rect, room: &Rect, b
             .close();
         if long >= 24.0 {
             let middle = scale(add(from, to), 0.5);
-            // To the left of its way, so that two that go to and fro have their names apart.
+            // To the left of its direction, so that two opposite vectors have their names apart.
             let normal = [along[1], -along[0]];
             let at = add(middle, scale(normal, 8.0));
             let anchor = match normal[0] {

@@ -1,22 +1,23 @@
-//! The look: style sheet, text sizes, words for numbers.
+//! The look: style sheet, text sizes, number formats.
 
 /// The width of a chart, in pixels.
 pub(super) const WIDTH: f64 = 760.0;
 /// The space around everything.
 pub(super) const PAD: f64 = 20.0;
-/// The least space between neighbouring labels.
+/// The minimum space between neighbouring labels.
 pub(super) const GAP: f64 = 10.0;
 /// The size of ticks and names.
 pub(super) const TICK: f64 = 12.0;
 /// The size of a raised power.
 pub(super) const RAISED: f64 = 9.0;
-/// How many colours there are; after as many series they come again with hollow marks.
+/// Number of colours. Further series repeat them with hollow marks.
 pub(super) const COLOURS: usize = 7;
 
-/// The style sheet of every picture. It names colours outright, since many viewers of files know no CSS variables.
+/// The style sheet of every picture. It states colours directly, because many file viewers do not support CSS
+/// variables.
 ///
-/// The colours of series lie at least 0.11 apart in Oklab, both as they are and as simulated for protanopia,
-/// deuteranopia and tritanopia.
+/// The colours of series lie at least 0.11 apart in Oklab, both unchanged and as simulated for protanopia, deuteranopia
+/// and tritanopia.
 pub(super) const STYLE: &str = "
 .oz{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-size:12px}
 .oz text{fill:#1c2126;font-variant-numeric:tabular-nums}
@@ -73,7 +74,7 @@ pub(super) const STYLE: &str = "
 }
 ";
 
-/// Digits with a narrow space between thousands, from five digits on.
+/// Formats digits with a narrow space between thousands, from five digits on.
 pub(super) fn grouped(digits: &str) -> String {
     let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
     if whole.len() < 5 {

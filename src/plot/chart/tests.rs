@@ -26,7 +26,7 @@ fn series(name: &str, style: Style, points: &[(f64, f64)]) -> Series {
     }
 }
 
-/// The texts of a class with their place across.
+/// Returns the texts of a class with their horizontal positions.
 fn texts(svg: &str, class: &str) -> Vec<(f64, String)> {
     let document = roxmltree::Document::parse(svg).unwrap();
     let nodes = document.descendants().filter(|n| n.has_tag_name("text"));
@@ -294,7 +294,7 @@ prop_compose! {
     }
 }
 
-/// Parses; no number is odd; nothing with a place leaves the picture.
+/// Checks that the SVG parses, that all numbers are regular, and that no positioned element leaves the picture.
 fn sound(svg: &str) {
     let document = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{e}: {svg}"));
     let root = document.root_element();
@@ -337,12 +337,12 @@ proptest! {
     }
 }
 
-/// The labels of both axes.
+/// Returns the labels of both axes.
 fn labels(svg: &str) -> [Vec<String>; 2] {
     ["xt", "yt"].map(|class| texts(svg, class).into_iter().map(|t| t.1).collect())
 }
 
-/// Checks labels of eleven digits: there is room for two of them only if one between them is omitted.
+/// Checks labels of eleven digits: there is space for two of them only if one between them is omitted.
 #[test]
 fn a_narrow_axis_far_from_zero_has_two_labels() {
     let (middle, far) = (-206061.6901393063, 0.0007319360059975914);

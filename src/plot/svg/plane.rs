@@ -4,7 +4,7 @@ use super::xml::number;
 pub use crate::geom::vector::{add, cross_plane as cross, dot, norm, scale, sub};
 use std::fmt::Write as _;
 
-/// A point of the picture; y goes down.
+/// A point of the picture; y points down.
 pub type Point = [f64; 2];
 
 /// A rectangle of the picture.
@@ -21,7 +21,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// The rectangle of a size round a middle.
+    /// Returns the rectangle of a size around a middle.
     #[must_use]
     pub fn around(middle: Point, width: f64, height: f64) -> Rect {
         Rect {
@@ -32,7 +32,7 @@ impl Rect {
         }
     }
 
-    /// Whether the two share an area.
+    /// Returns true if the two share an area.
     #[must_use]
     pub fn overlaps(&self, other: &Rect) -> bool {
         self.left < other.right
@@ -41,7 +41,7 @@ impl Rect {
             && other.top < self.bottom
     }
 
-    /// The rectangle with a margin on every side.
+    /// Returns the rectangle with a margin on every side.
     #[must_use]
     pub fn grown(&self, by: f64) -> Rect {
         Rect {
@@ -52,7 +52,7 @@ impl Rect {
         }
     }
 
-    /// The least rectangle round both.
+    /// Returns the smallest rectangle around both.
     #[must_use]
     pub fn with(&self, other: &Rect) -> Rect {
         Rect {
@@ -63,14 +63,14 @@ impl Rect {
         }
     }
 
-    /// The area that the two share.
+    /// Returns the area that the two share.
     pub(crate) fn overlap(&self, other: &Rect) -> f64 {
         let across = self.right.min(other.right) - self.left.max(other.left);
         let down = self.bottom.min(other.bottom) - self.top.max(other.top);
         across.max(0.0) * down.max(0.0)
     }
 
-    /// Whether no part of it lies outside another.
+    /// Returns true if it lies completely inside another.
     pub(crate) fn within(&self, room: &Rect) -> bool {
         self.left >= room.left
             && self.top >= room.top
@@ -78,7 +78,7 @@ impl Rect {
             && self.bottom <= room.bottom
     }
 
-    /// Its middle.
+    /// Returns its middle.
     #[must_use]
     pub fn middle(&self) -> Point {
         [
@@ -87,7 +87,7 @@ impl Rect {
         ]
     }
 
-    /// The point of it that is nearest to `p`.
+    /// Returns its point nearest to `p`.
     pub fn nearest(&self, p: Point) -> Point {
         [
             p[0].clamp(self.left, self.right),
@@ -104,7 +104,7 @@ impl Rect {
         }
     }
 
-    /// Whether a segment touches it.
+    /// Returns true if a segment touches it.
     pub fn meets(&self, a: Point, b: Point) -> bool {
         let within = |p: Point| {
             (self.left..=self.right).contains(&p[0]) && (self.top..=self.bottom).contains(&p[1])
@@ -122,7 +122,7 @@ impl Rect {
     }
 }
 
-/// The mean of some points; the origin if there are none.
+/// Returns the mean of some points, or the origin if there are none.
 pub fn mean(points: impl Iterator<Item = Point>) -> Point {
     let (mut sum, mut n) = ([0.0, 0.0], 0.0f64);
     for p in points {
@@ -132,7 +132,7 @@ pub fn mean(points: impl Iterator<Item = Point>) -> Point {
     scale(sum, 1.0 / n.max(1.0))
 }
 
-/// The direction of a vector; across where it has none.
+/// Returns the direction of a vector, or the horizontal one if it has none.
 pub fn unit(a: Point) -> Point {
     let length = norm(a);
     if length > 1e-12 {
@@ -142,7 +142,7 @@ pub fn unit(a: Point) -> Point {
     }
 }
 
-/// The distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 pub fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     let along = sub(b, a);
     let length = dot(along, along);
@@ -154,18 +154,18 @@ pub fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     norm(sub(p, add(a, scale(along, t))))
 }
 
-/// Whether two segments share no value of one coordinate.
+/// Returns true if two segments share no value of one coordinate.
 pub fn apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]))
 }
 
-/// Whether two segments cross, ends not counted.
+/// Returns true if two segments cross, not counting ends.
 pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     let side = |p, q, r| cross(sub(q, p), sub(r, p));
     side(a, b, c) * side(a, b, d) < -1e-15 && side(c, d, a) * side(c, d, b) < -1e-15
 }
 
-/// The area of a polygon.
+/// Returns the area of a polygon.
 pub fn area(polygon: &[Point]) -> f64 {
     let n = polygon.len();
     let twice: f64 = (0..n)
@@ -174,7 +174,7 @@ pub fn area(polygon: &[Point]) -> f64 {
     twice.abs() / 2.0
 }
 
-/// Whether a point is inside a polygon (even-odd).
+/// Returns true if a point is inside a polygon (even-odd).
 pub fn inside(p: Point, polygon: &[Point]) -> bool {
     let mut odd = false;
     for (i, &a) in polygon.iter().enumerate() {
@@ -188,7 +188,7 @@ pub fn inside(p: Point, polygon: &[Point]) -> bool {
     odd
 }
 
-/// The data of the path through some points.
+/// Returns the data of the path through some points.
 pub fn polyline(points: &[Point], closed: bool) -> String {
     let mut d = String::new();
     for (i, p) in points.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! The room that text takes, and text cut and broken to fit a room.
+//! The space that text takes, and text cut and broken to fit a space.
 
 use crate::format::plain::straight;
 
-/// The width of `text` at `size` pixels, taken wide: the fonts are not known here.
+/// Returns the width of `text` at `size` pixels, estimated generously because the fonts are unknown here.
 pub fn width(text: &str, size: f64) -> f64 {
     let of = |c| {
         if c < '\u{1100}' || ('\u{2000}'..'\u{2070}').contains(&c) {
@@ -14,7 +14,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     text.chars().map(of).sum::<f64>() * size
 }
 
-/// `text` in one line, cut to `room` pixels.
+/// Returns `text` in one line, cut to `room` pixels.
 pub fn cut(text: &str, size: f64, room: f64) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     if width(&text, size) <= room {
@@ -31,7 +31,7 @@ pub fn cut(text: &str, size: f64, room: f64) -> String {
     format!("{}…", short.trim_end())
 }
 
-/// Names in one line, each shortened in its middle to `room` pixels; different names never come out alike.
+/// Returns names in one line, each shortened in its middle to `room` pixels. Different names stay different.
 pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
     let straight: Vec<String> = all
         .iter()
@@ -39,7 +39,7 @@ pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
         .collect();
     let whole: Vec<Vec<char>> = straight.iter().map(|n| n.chars().collect()).collect();
     let fits = |n: usize| width(&straight[n], size) <= room;
-    // Characters that are left beside the dots, the widest ones taken for all.
+    // The number of characters left next to the dots, assuming the widest ones.
     let wide = |c: &&char| width(&c.to_string(), size) > 0.6 * size;
     let left = |n: usize| {
         let one = if whole[n].iter().any(|c| wide(&c)) {
@@ -49,7 +49,7 @@ pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
         };
         ((room / one) as usize).saturating_sub(1).max(2)
     };
-    // Of the characters left, so many at the front.
+    // The given number of the remaining characters are at the front.
     let short = |n: usize, front: usize| -> String {
         let (chars, left) = (&whole[n], left(n));
         let (front, back) = (front.min(left), left - front.min(left));
@@ -70,7 +70,7 @@ pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
                 .any(|(o, of)| o == s && of != name);
             before || (0..all.len()).any(|k| fits(k) && straight[k] == *s && straight[k] != *name)
         };
-        // From the middle outwards, and a number where every cut is another's.
+        // From the middle outwards, with a number if every cut equals that of another.
         let cuts = (0..=left(n)).flat_map(|by| [middle.checked_sub(by), Some(middle + by)]);
         let free = cuts
             .flatten()
@@ -94,7 +94,7 @@ pub fn names(all: &[&str], size: f64, room: f64) -> Vec<String> {
     out
 }
 
-/// `text` in lines of at most `room` pixels; a longer word is cut.
+/// Returns `text` in lines of at most `room` pixels; a longer word is cut.
 pub(crate) fn wrap(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -134,12 +134,12 @@ mod tests {
             short[0]
         );
         assert_eq!(short[300..], ["A", "short"]);
-        // The same name is the same text.
+        // The same name gives the same text.
         assert_eq!(
             names(&[all[0], all[0]], 11.0, 90.0),
             [short[0].clone(), short[0].clone()]
         );
-        // Nothing turns letters round, and nothing is two lines.
+        // No text changes the direction of letters, and no text has two lines.
         assert_eq!(names(&["a\u{202e}b\nc"], 11.0, 150.0), ["a\\u{202e}b c"]);
     }
 }

@@ -1,4 +1,4 @@
-//! A small XML writer: it closes what it opens, escapes what it is given and writes numbers in one way.
+//! A small XML writer: it closes elements, escapes text and writes all numbers in one format.
 
 use crate::format::decimals;
 use crate::format::plain::straight;
@@ -26,22 +26,22 @@ impl Xml {
         Tag { xml: self, name }
     }
 
-    /// Text inside the innermost open element.
+    /// Writes text inside the innermost open element.
     pub(crate) fn text(&mut self, text: &str) {
         escape(&mut self.out, text);
     }
 
-    /// Text that is known to be plain already.
+    /// Writes text that is known to need no escaping.
     pub fn raw(&mut self, text: &'static str) {
         self.out.push_str(text);
     }
 
-    /// Elements that this writer has finished before.
+    /// Writes elements that this writer has finished before.
     pub fn piece(&mut self, elements: &str) {
         self.out.push_str(elements);
     }
 
-    /// Ends the innermost open element.
+    /// Closes the innermost open element.
     pub fn end(&mut self) {
         if let Some(name) = self.open.pop() {
             self.out.push_str("</");
@@ -53,7 +53,7 @@ impl Xml {
         }
     }
 
-    /// Ends every open element and gives the document.
+    /// Closes every open element and returns the document.
     pub fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.end();
@@ -63,7 +63,7 @@ impl Xml {
 }
 
 impl Tag<'_> {
-    /// An attribute with text.
+    /// Adds an attribute with text.
     pub fn set(self, name: &str, value: &str) -> Self {
         self.xml.out.push(' ');
         self.xml.out.push_str(name);
@@ -73,23 +73,23 @@ impl Tag<'_> {
         self
     }
 
-    /// An attribute with a number.
+    /// Adds an attribute with a number.
     pub fn num(self, name: &str, value: f64) -> Self {
         self.set(name, &number(value))
     }
 
-    /// Leaves the element open.
+    /// Keeps the element open.
     pub fn open(self) {
         self.xml.out.push('>');
         self.xml.open.push(self.name);
     }
 
-    /// Ends the element with nothing inside.
+    /// Closes the element with nothing inside.
     pub fn close(self) {
         self.xml.out.push_str("/>\n");
     }
 
-    /// Ends the element with text inside.
+    /// Closes the element with text inside.
     pub fn text(self, text: &str) {
         self.xml.out.push('>');
         escape(&mut self.xml.out, text);
@@ -97,7 +97,7 @@ impl Tag<'_> {
         self.xml.end();
     }
 
-    /// Ends the element with text inside and the whole of it as a tooltip, should it differ.
+    /// Closes the element with text inside, and adds the full text as a tooltip if it differs.
     pub(crate) fn text_and_tip(self, text: &str, whole: &str) {
         self.xml.out.push('>');
         self.xml.open.push(self.name);
@@ -108,7 +108,7 @@ impl Tag<'_> {
         self.xml.end();
     }
 
-    /// Ends the element with a tooltip inside, if there is one to show.
+    /// Closes the element with a tooltip inside, if there is one to show.
     pub fn tip(self, tip: &str) {
         if tip.is_empty() {
             return self.close();
@@ -120,13 +120,13 @@ impl Tag<'_> {
     }
 }
 
-/// A coordinate: at most two decimals, no trailing zeros, no negative zero.
+/// Formats a coordinate with at most two decimals, no trailing zeros and no negative zero.
 pub fn number(value: f64) -> String {
     decimals(value, 2)
 }
 
-/// Appends `text` so that it is plain character data anywhere in XML or HTML; a character XML forbids becomes U+FFFD, and one
-/// that turns letters round is spelt out.
+/// Appends `text` so that it is valid character data anywhere in XML or HTML. A character that XML forbids becomes
+/// U+FFFD, and one that changes the direction of letters is spelt out.
 pub(crate) fn escape(out: &mut String, text: &str) {
     for c in straight(text).chars() {
         match c {
