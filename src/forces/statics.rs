@@ -1,7 +1,7 @@
-//! Statics of mechanisms: Assur groups and their kinetostatics, and joint reactions of any mechanism, planar or spatial.
-//! Knows geometry and motion, and nothing of files, searches or reports.
+//! Statics of mechanisms: Assur groups and their kinetostatics, and joint reactions of any mechanism, planar or
+//! spatial. This module uses geometry and motion, and is independent of files, searches and reports.
 //!
-//! [`solve::solve`] takes a mechanism to its reactions: in its plane ([`cycle`]) where that determines them, otherwise in
+//! [`solve::solve`] takes a mechanism to its reactions: in its plane ([`cycle`]) if that determines them, otherwise in
 //! space ([`reactions`]).
 
 pub mod assur;
@@ -18,13 +18,13 @@ pub mod transmission;
 
 use ozols_dense::{Matrix, singular_values};
 
-/// Returns the size up to which figures of a solution are rounding: what its equations leave over, and no less than the
-/// rounding of a sum of `terms` numbers as great as the greatest of them.
+/// Returns the size up to which figures of a solution are rounding errors. It is the residual of the equations, and at
+/// least the rounding of a sum of `terms` numbers as large as the largest of them.
 pub(crate) fn rounding(left_over: f64, greatest: f64, terms: usize) -> f64 {
     left_over.max(f64::EPSILON * terms as f64 * greatest)
 }
 
-/// Returns a figure, or 0 if it is rounding. If the rounding is not finite, no figure is.
+/// Returns a figure, or 0 if it is a rounding error. If the rounding is not finite, no figure is.
 pub(crate) fn without(rounding: f64, figure: f64) -> f64 {
     if figure.abs() <= rounding && rounding.is_finite() {
         0.0
@@ -33,18 +33,18 @@ pub(crate) fn without(rounding: f64, figure: f64) -> f64 {
     }
 }
 
-/// Returns the greatest size among figures.
+/// Returns the largest absolute figure.
 pub(crate) fn greatest<'x>(figures: impl IntoIterator<Item = &'x f64>) -> f64 {
     let sizes = figures.into_iter().map(|x| x.abs());
     sizes.fold(0.0, f64::max)
 }
 
-/// Returns what equations leave over as a share of the greatest load, or as it is without loads.
+/// Returns the residual of equations relative to the largest load, or unchanged without loads.
 pub(crate) fn over_load(left_over: f64, load: f64) -> f64 {
     left_over / if load > 0.0 { load } else { 1.0 }
 }
 
-/// Returns the ratio of the greatest and smallest singular values; infinite for singular matrices.
+/// Returns the ratio of the largest to the smallest singular value; infinite for singular matrices.
 pub(crate) fn condition(matrix: &Matrix) -> f64 {
     let Some(values) = singular_values(matrix) else {
         return f64::INFINITY;

@@ -1,15 +1,15 @@
 //! Decomposition of a planar mechanism into its drives and Assur groups.
 //!
-//! With its drives locked a mechanism of the right mobility is a determinate structure: 3n = 2p, n bodies, p pairs. Its
-//! Assur groups are the smallest parts for which the same holds once the bodies they hang on are held. Give each pair's
-//! two constraints to one of its bodies, three to a body; then a body depends on those at the other ends of its
-//! constraints, and the groups are the strongly connected components of that dependence. Which constraint goes where
-//! does not matter, so the decomposition is unique.
+//! With its drives locked, a mechanism of the right mobility is a determinate structure: 3n = 2p, n bodies, p pairs.
+//! Its Assur groups are the smallest parts that satisfy this once the bodies that support them are held. Assign each
+//! pair's two constraints to its bodies, three constraints to a body. Then a body depends on those at the other ends of
+//! its constraints, and the groups are the strongly connected components of that dependence. The choice of the
+//! assignment does not matter, so the decomposition is unique.
 //!
 //! # Sources
-//! A. Sljoka, O. Shai, W. Whiteley, "Checking mobility and decomposition of linkages via pebble game algorithm", ASME IDETC
-//! 2011; B. Servatius, O. Shai, W. Whiteley, "Combinatorial characterization of the Assur graphs from engineering",
-//! arXiv:0801.2525, 2008 (the components are the Assur groups).
+//! A. Sljoka, O. Shai, W. Whiteley, "Checking mobility and decomposition of linkages via pebble game algorithm", ASME
+//! IDETC 2011; B. Servatius, O. Shai, W. Whiteley, "Combinatorial characterization of the Assur graphs from
+//! engineering", arXiv:0801.2525, 2008 (the components are the Assur groups).
 
 use crate::statics::assur_class::{AssurClass, classify};
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
@@ -17,11 +17,11 @@ use itertools::Itertools;
 use std::collections::VecDeque;
 use thiserror::Error;
 
-/// Why a mechanism has no decomposition under its drives.
+/// Reason why a mechanism has no decomposition under its drives.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum AssurError {
-    /// A pair that is no drive has fewer than one freedom.
+    /// A pair that is not a drive has fewer than one freedom.
     #[error("pair \"{pair}\" cannot be a drive; drive a turning or sliding pair")]
     NotADrive {
         /// The pair.
@@ -35,7 +35,7 @@ pub enum AssurError {
     Overconstrained {
         /// The bodies.
         bodies: String,
-        /// Constraints too many.
+        /// Number of excess constraints.
         excess: usize,
     },
     /// Some bodies still move.
@@ -46,17 +46,17 @@ pub enum AssurError {
     Underconstrained {
         /// The bodies.
         bodies: String,
-        /// Freedoms left.
+        /// Number of remaining freedoms.
         freedoms: usize,
     },
 }
 
-/// A structural group: bodies that are determinate once the bodies they hang on are held.
+/// A structural group: bodies that are determinate once the bodies that support them are held.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     /// The bodies, ascending.
     pub bodies: Vec<BodyId>,
-    /// The bodies as rigid blocks: those joined by a drive or a rigid pair count as one. Most blocks are one body.
+    /// The bodies as rigid blocks. Bodies joined by a drive or a rigid pair count as one. Most blocks are one body.
     pub blocks: Vec<Vec<BodyId>>,
     /// Pairs between blocks of the group.
     pub inner: Vec<PairId>,
@@ -69,14 +69,14 @@ pub struct Group {
 }
 
 impl Group {
-    /// 3n - 2p over blocks and pairs between them; 0 for every group.
+    /// Returns 3n - 2p over blocks and pairs between them; 0 for every group.
     #[must_use]
     pub fn mobility(&self) -> isize {
         let count = |n: usize| isize::try_from(n).unwrap_or(isize::MAX);
         3 * count(self.blocks.len()) - 2 * count(self.inner.len() + self.outer.len())
     }
 
-    /// All pairs that place the group: inner, outer and locked, ascending.
+    /// Returns all pairs that position the group: inner, outer and locked, ascending.
     #[must_use]
     pub fn pairs(&self) -> Vec<PairId> {
         let all = self.inner.iter().chain(&self.outer).chain(&self.locked);
@@ -84,21 +84,21 @@ impl Group {
     }
 }
 
-/// A mechanism as its drives and groups, each group after those it hangs on.
+/// A mechanism as its drives and groups, each group after those that support it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decomposition {
     /// The driven pairs.
     pub drives: Vec<PairId>,
-    /// Bodies that the drives alone place, ascending: Assur's links of class I.
+    /// Bodies positioned by the drives alone, ascending: Assur's links of class I.
     pub driven: Vec<BodyId>,
-    /// Drives and rigid pairs that place them.
+    /// Drives and rigid pairs that position them.
     pub driven_pairs: Vec<PairId>,
     /// The groups.
     pub groups: Vec<Group>,
 }
 
 impl Decomposition {
-    /// Class of the mechanism: the highest among its groups, 1 where there are none.
+    /// Returns the class of the mechanism: the highest among its groups, or 1 if there are none.
     #[must_use]
     pub fn class(&self) -> usize {
         self.groups.iter().map(|g| g.class.class).max().unwrap_or(1)
@@ -108,7 +108,7 @@ impl Decomposition {
 /// Decomposes a mechanism with the given driven pairs locked.
 ///
 /// # Errors
-/// Where the drives do not make the mechanism determinate; the bodies concerned are named.
+/// Returns an error that names the bodies concerned if the drives do not make the mechanism determinate.
 ///
 /// # Complexity
 /// O(p·(n + p)) time, O(n + p) space, for n bodies and p pairs.
@@ -164,8 +164,8 @@ pub fn decompose(m: &PlanarMechanism, drives: &[PairId]) -> Result<Decomposition
     ))
 }
 
-/// Decompositions under other drives: every frame-adjacent pair first, then every other pair of one freedom, each in
-/// place of the first drive (`drives[0]`); those that leave the mechanism indeterminate say why.
+/// Returns decompositions under other drives: first every pair at the frame, then every other pair of one freedom, each
+/// in place of the first drive (`drives[0]`). Those that leave the mechanism indeterminate give the reason.
 ///
 /// # Complexity
 /// O(p) decompositions.
@@ -186,7 +186,7 @@ pub fn alternatives(
         .collect()
 }
 
-/// Bodies joined by locked pairs, as one.
+/// Bodies joined by locked pairs, merged.
 struct Blocks {
     of: Vec<usize>,
     members: Vec<Vec<BodyId>>,
@@ -245,18 +245,18 @@ fn names(m: &PlanarMechanism, blocks: &Blocks, which: &[usize]) -> String {
     names.dedup().join(", ")
 }
 
-/// The two ends of a pair and the block each of its two constraints is given to.
+/// The two ends of a pair and the block to which each of its two constraints is assigned.
 type Halves = ([usize; 2], [usize; 2]);
 
-/// Constraints given to blocks, at most three each.
+/// Constraints assigned to blocks, at most three each.
 struct Placement {
     of_pair: Vec<Option<Halves>>,
     load: Vec<usize>,
 }
 
 impl Placement {
-    /// Gives one constraint of pair `p` to an end of it, moving others where they make room; on failure the blocks that
-    /// are full.
+    /// Assigns one constraint of pair `p` to one of its ends, moving others if necessary. On failure it returns the
+    /// full blocks.
     fn place(&mut self, p: PairId, half: usize, held: usize) -> Result<(), Vec<usize>> {
         let ends = self.of_pair[p].map_or([held; 2], |x| x.0);
         // came[b] = the constraint that may move into block b, and the block it leaves (none for the new one).
@@ -297,7 +297,7 @@ impl Placement {
         Err(reached)
     }
 
-    /// The blocks that may be left free instead of these, and these.
+    /// Returns these blocks and those that may be left free instead of them.
     fn loose(&self, mut free: Vec<usize>) -> Vec<usize> {
         let mut next = 0;
         while let Some(&to) = free.get(next) {
@@ -314,7 +314,7 @@ impl Placement {
     }
 }
 
-/// Strongly connected blocks, each component after those it depends on, the first in file order first.
+/// Returns strongly connected blocks, each component after those it depends on, the first in file order first.
 fn components(blocks: &Blocks, held: usize, placement: &Placement) -> Vec<Vec<usize>> {
     let n = blocks.members.len();
     let mut needs: Vec<Vec<usize>> = vec![Vec::new(); n];
@@ -375,7 +375,7 @@ fn assemble(
         let (mut inner, mut outer) = (Vec::new(), Vec::new());
         for p in (0..m.pairs.len()).filter(|&p| !blocks.locked[p]) {
             let at = m.pairs[p].bodies.map(|b| place[blocks.of[b]]);
-            // The frame has no place; any other end in a later group makes the pair that group's.
+            // The frame has no position. Any other end in a later group assigns the pair to that group.
             let latest = at.into_iter().filter(|&x| x != usize::MAX).max();
             if latest == Some(i) {
                 if at[0] == at[1] {

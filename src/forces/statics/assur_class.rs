@@ -9,7 +9,7 @@ use std::fmt;
 /// The structural kind of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// One body and no more than rigid or doubled pairs.
+    /// One body with only rigid or doubled pairs.
     Single,
     /// Two bodies, with its species 1 to 5 (RRR, RRP, RPR, PRP, RPP), 6 for PPP, which is not determinate.
     Dyad(u8),
@@ -25,12 +25,12 @@ pub enum Kind {
 /// Class, order and kind of a group.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AssurClass {
-    /// The most pairs round one contour of the group: a body with k pairs is a rigid contour of k, bodies joined in a
-    /// ring a changeable one; at least 2.
+    /// The largest number of pairs around one contour of the group: a body with k pairs is a rigid contour of k, bodies
+    /// joined in a ring a changeable one; at least 2.
     pub class: usize,
     /// Number of outer pairs.
     pub order: usize,
-    /// Bodies with two, three, four, ... pairs.
+    /// Numbers of bodies with two, three, four, ... pairs.
     pub composition: Vec<usize>,
     /// Independent closed contours of the group.
     pub contours: usize,
@@ -38,7 +38,7 @@ pub struct AssurClass {
     pub kind: Kind,
 }
 
-/// A class in Roman numerals, as the field writes it.
+/// Returns a class in Roman numerals, as is usual in the field.
 #[must_use]
 pub fn roman(class: usize) -> String {
     const ROMAN: [&str; 13] = [
@@ -65,8 +65,8 @@ impl fmt::Display for AssurClass {
     }
 }
 
-/// Classifies a group by Assur and Artobolevsky: the class is that of its highest contour, the order its number of outer
-/// pairs. Changeable contours are those of a shortest basis.
+/// Classifies a group by Assur and Artobolevsky: the class is that of its highest contour, the order its number of
+/// outer pairs. Changeable contours are those of a shortest basis.
 ///
 /// # Complexity
 /// O(n·p²) for n bodies and p pairs of the group.
@@ -153,7 +153,8 @@ fn kind(
     }
 }
 
-/// The longest contour of a shortest basis, 0 where there is none: greedily, each edge closed by a shortest path.
+/// Returns the length of the longest contour of a shortest basis, or 0 if there is none. It is greedy: each edge is
+/// closed by a shortest path.
 fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
     let mut graph: UnGraph<(), usize> = UnGraph::default();
     (0..n).for_each(|_| {
@@ -181,8 +182,8 @@ fn longest_contour(n: usize, edges: &[(usize, usize)]) -> usize {
     longest
 }
 
-/// Horton's candidates for a shortest basis, each with its length: for every body and pair, the two shortest paths to the pair's
-/// ends, and the pair.
+/// Returns Horton's candidates for a shortest basis, each with its length: for every body and pair, the two shortest
+/// paths to the pair's ends, and the pair.
 fn candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
     let mut out: Vec<(usize, Vec<usize>)> = Vec::new();
     for v in graph.node_indices() {
@@ -204,7 +205,7 @@ fn candidates(graph: &UnGraph<(), usize>) -> Vec<(usize, Vec<usize>)> {
     out
 }
 
-/// The edges of a shortest path from `x` back to the body from which all are so far.
+/// Returns the edges of a shortest path from `x` back to the body from which distances are measured.
 fn shortest_path(
     graph: &UnGraph<(), usize>,
     far: impl Fn(NodeIndex) -> Option<usize>,

@@ -1,4 +1,4 @@
-//! Quadratic programmes over second-order cones, as contacts with friction make them.
+//! Quadratic programs over second-order cones, as they arise from contacts with friction.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolution, DefaultSolver, IPSolver, SupportedConeT};
@@ -6,19 +6,19 @@ use clarabel::solver::{DefaultSettings, DefaultSolution, DefaultSolver, IPSolver
 /// A row of a sparse matrix: (column, entry).
 pub(crate) type Row = Vec<(usize, f64)>;
 
-/// How a programme is gone about: what one way stalls at, another may solve.
+/// Settings of the solver. A program at which one setting stalls may be solved by another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SolverEffort {
-    /// As the solver is delivered.
+    /// The default settings.
     Usual,
-    /// Without scaling rows and columns first.
+    /// Without scaling of rows and columns.
     Unscaled,
-    /// In shorter steps, each refined for longer.
+    /// With shorter steps, each refined for longer.
     Careful,
 }
 
 impl SolverEffort {
-    /// All, the quickest first.
+    /// All settings, the fastest first.
     pub(crate) const ALL: [SolverEffort; 3] = [
         SolverEffort::Usual,
         SolverEffort::Unscaled,
@@ -48,33 +48,33 @@ impl SolverEffort {
     }
 }
 
-/// Minimise ½ xᵀP x + qᵀx subject to `row · x + s = right`, with the slacks s of each group of rows in a cone.
+/// Program: minimise ½ xᵀP x + qᵀx subject to `row · x + s = right`, with the slacks s of each group of rows in a cone.
 #[derive(Debug, Default)]
 pub(crate) struct ConeProgramme {
     rows: Vec<Row>,
     right: Vec<f64>,
     cones: Vec<SupportedConeT<f64>>,
-    /// Rows that are in a cone already.
+    /// Number of rows that are already in a cone.
     grouped: usize,
 }
 
 impl ConeProgramme {
-    /// One more row.
+    /// Adds a row.
     pub(crate) fn row(&mut self, row: impl IntoIterator<Item = (usize, f64)>, right: f64) {
         self.rows.push(row.into_iter().collect());
         self.right.push(right);
     }
 
-    /// Puts the slacks of the rows since the last cone into one.
+    /// Puts the slacks of the rows since the last cone into a cone.
     pub(crate) fn within(&mut self, cone: impl Fn(usize) -> SupportedConeT<f64>) {
         self.cones.push(cone(self.rows.len() - self.grouped));
         self.grouped = self.rows.len();
     }
 
-    /// What the solver finds for the upper triangle of P by rows, and q.
+    /// Solves the program for the upper triangle of P by rows, and q.
     ///
     /// # Errors
-    /// Where the solver refuses the programme, in its words.
+    /// Returns the solver's message if it rejects the program.
     pub(crate) fn solve(
         &self,
         quadratic: &[Row],
@@ -83,10 +83,10 @@ impl ConeProgramme {
         self.solve_with(quadratic, linear, SolverEffort::Usual)
     }
 
-    /// The same in a way of its own.
+    /// Solves the program with the given settings.
     ///
     /// # Errors
-    /// Where the solver refuses the programme, in its words.
+    /// Returns the solver's message if it rejects the program.
     pub(crate) fn solve_with(
         &self,
         quadratic: &[Row],

@@ -1,9 +1,9 @@
-//! The four-link group with a closed contour, as a problem of its own.
+//! The four-link group with a closed contour, as a separate problem.
 //!
-//! Letters are those of the shears in `[Bychkov, Dvornikov & Zhukov 2018]`: the ternary link 4 hangs on D and carries rods 6
-//! (F to M) and 7 (K to L), which carry the slider 10 on its guide. In any other mechanism 4, 6, 7 and 10 are the links in
-//! those places. Three methods solve it ([`solutions`]): the published [`delta_point`], its form in homogeneous coordinates
-//! ([`projective`]), and the twelve [`equilibrium`] equations, in doubles and exactly.
+//! Letters are those of the shears in `[Bychkov, Dvornikov & Zhukov 2018]`. The ternary link 4 is attached at D and
+//! carries rods 6 (F to M) and 7 (K to L), which carry the slider 10 on its guide. In any other mechanism, 4, 6, 7 and
+//! 10 are the corresponding links. Three methods solve it ([`solutions`]): the published [`delta_point`], its form in
+//! homogeneous coordinates ([`projective`]), and the twelve [`equilibrium`] equations, in doubles and exactly.
 
 pub mod delta_point;
 pub mod equilibrium;
@@ -17,7 +17,7 @@ use crate::statics::assur::Group;
 use crate::statics::assur_class::Kind;
 use crate::statics::planar::{BodyId, PairId, PairKind, PlanarMechanism};
 
-/// Places of the letters in a mechanism.
+/// Assignment of the letters in a mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ContourGroup {
     /// Link 4, with three turning pairs.
@@ -40,7 +40,7 @@ pub struct ContourGroup {
     pub guide: PairId,
 }
 
-/// Finds the letters in a group; `None` for groups of another kind, and those with a drive inside.
+/// Finds the letters in a group. Returns `None` for groups of another kind, and those with a drive inside.
 #[must_use]
 pub(crate) fn recognise(m: &PlanarMechanism, group: &Group) -> Option<ContourGroup> {
     if group.class.kind != Kind::FourLinkContour || !group.locked.is_empty() {

@@ -22,10 +22,10 @@ use crate::statics::reactions::loads::Borne;
 use crate::statics::reactions::unsolved::Unsolved;
 use thiserror::Error;
 
-/// A group worse conditioned than this is at a dead point.
+/// Condition number above which a group is at a dead point.
 const WORST: f64 = 1e12;
 
-/// Why there is no statics of a mechanism in its plane.
+/// Reason why a mechanism has no statics in its plane.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanarStaticsError {
@@ -35,7 +35,7 @@ pub enum PlanarStaticsError {
     /// Its drives do not make it determinate.
     #[error(transparent)]
     Assur(#[from] AssurError),
-    /// Its geometry or loads have no numbers.
+    /// Its geometry or loads have no numerical value.
     #[error(transparent)]
     Unsolved(#[from] Unsolved),
 }
@@ -45,34 +45,34 @@ pub enum PlanarStaticsError {
 pub struct Moment {
     /// Position of the first drive `[rad]` or `[m]`.
     pub drive: f64,
-    /// Where every body is.
+    /// Position of every body.
     pub pose: Pose,
     /// The loads.
     pub loads: Vec<Load>,
-    /// How the links with mass move.
+    /// Motion of the links with mass.
     pub links: Vec<LinkInertia>,
     /// Reactions of all pairs.
     pub reactions: Vec<Reaction>,
-    /// What they are worth in the equilibrium of all bodies at once.
+    /// Their reliability in the equilibrium of all bodies at once.
     pub worth: Worth,
-    /// The same group by group, drives last.
+    /// Their reliability group by group, drives last.
     pub by_groups: Vec<Worth>,
     /// The four-link groups with a closed contour.
     pub groups: Vec<GroupSolutions>,
     /// Power of loads and inertia `[W]`.
     pub load_power: f64,
-    /// Power of the drives `[W]`, from the reactions; less than nothing of the other.
+    /// Power of the drives `[W]`, from the reactions. In balance it is minus `load_power`.
     pub drive_power: f64,
 }
 
-/// A place where a mechanism goes no further.
+/// A position at which a mechanism cannot move further.
 #[derive(Debug, Clone)]
 pub struct DeadPoint {
     /// Position of the first drive `[rad]` or `[m]`.
     pub drive: f64,
     /// The group that stops it, as an index into [`Decomposition::groups`]; `None` for the drives themselves.
     pub group: Option<usize>,
-    /// Ratio of the greatest and smallest singular values of that group's equations at the last pose.
+    /// Ratio of the largest to the smallest singular value of that group's equations at the last pose.
     pub condition: f64,
     /// The last pose reached.
     pub pose: Pose,
@@ -85,27 +85,27 @@ pub struct Statics {
     pub linkage: Linkage,
     /// Its drives and groups.
     pub decomposition: Decomposition,
-    /// Condition of each group's equations at the pose of the file.
+    /// Condition number of each group's equations at the pose of the file.
     pub conditions: Vec<f64>,
     /// The groups that the δ-point method solves, with their indices.
     pub contour_groups: Vec<(usize, ContourGroup)>,
-    /// Whether the file states a mass, a force or a moment that a body bears.
+    /// Whether the file states a mass, a force or a moment that acts on a body.
     pub loaded: bool,
-    /// Position by position.
+    /// Results position by position.
     pub moments: Vec<Moment>,
-    /// Where the motion ended early, if it did.
+    /// Position where the motion ended early, if it did.
     pub dead: Option<DeadPoint>,
 }
 
 impl Statics {
-    /// Whether the first drive slides; its position is in metres then.
+    /// Returns true if the first drive slides; its position is then in metres.
     #[must_use]
     pub fn drive_slides(&self) -> bool {
         let first = self.decomposition.drives.first();
         first.is_some_and(|&p| self.linkage.mechanism.pairs[p].kind == PairKind::Sliding)
     }
 
-    /// Returns a position of the first drive, `[rad]` or the file's unit, in `[rad]` or `[m]`.
+    /// Converts a position of the first drive, `[rad]` or the file's unit, to `[rad]` or `[m]`.
     fn in_metres(&self, at: f64) -> f64 {
         if self.drive_slides() {
             at * self.linkage.mechanism.metres
@@ -114,10 +114,10 @@ impl Statics {
         }
     }
 
-    /// Returns the loads and reactions in a pose, the first drive `at` away from that of the file.
+    /// Returns the loads and reactions in a pose, with the first drive `at` away from that of the file.
     ///
     /// # Errors
-    /// [`Unsolved`]; [`Unsolved::Stuck`] where a group is singular to working precision.
+    /// Returns an [`Unsolved`]; [`Unsolved::Stuck`] if a group is singular to working precision.
     fn moment(
         &self,
         m: &Mechanism,
@@ -177,7 +177,7 @@ impl Statics {
         })
     }
 
-    /// Returns the last pose reached, with the group whose equations are the worst there.
+    /// Returns the last pose reached, with the group whose equations have the worst condition there.
     fn dead_point(
         &self,
         m: &Mechanism,
@@ -198,7 +198,7 @@ impl Statics {
         })
     }
 
-    /// The first four-link group with a closed contour, in the pose in which forces from outside load it most.
+    /// Returns the first four-link group with a closed contour, in the pose in which external forces load it most.
     #[must_use]
     pub fn heaviest_contour_group(&self) -> Option<&GroupPose> {
         let outside = |l: &&Load| l.source == LoadSource::External;
@@ -212,11 +212,11 @@ impl Statics {
     }
 }
 
-/// Takes a state of a mechanism through a stroke of its first drive, or the pose of the file alone. Drive positions count
-/// from the pose of the file; turns about the plane's normal.
+/// Takes a state of a mechanism through a stroke of its first drive, or only the pose of the file. Drive positions are
+/// relative to the pose of the file, with turns about the plane's normal.
 ///
 /// # Errors
-/// Where the mechanism is not planar, or its drives leave it indeterminate.
+/// Returns an error if the mechanism is not planar, or if its drives leave it indeterminate.
 ///
 /// # Complexity
 /// O(steps · n³) for n bodies.
@@ -229,10 +229,10 @@ pub fn statics(
     statics_at(mechanism, state, &positions)
 }
 
-/// The same at positions of the first drive in any order, `[rad]` or the file's unit.
+/// Solves the statics at positions of the first drive in any order, `[rad]` or the file's unit.
 ///
 /// # Errors
-/// As [`statics`].
+/// Returns an error in the same cases as [`statics`].
 pub(crate) fn statics_at(
     mechanism: &Mechanism,
     state: StateId,
@@ -286,7 +286,7 @@ pub(crate) fn statics_at(
     Ok(out)
 }
 
-/// Condition of each group's equations in a pose, in order of the groups.
+/// Returns the condition number of each group's equations in a pose, in order of the groups.
 fn group_conditions(linkage: &Linkage, pose: &Pose, d: &Decomposition) -> Vec<f64> {
     let groups = d.groups.iter();
     groups
@@ -294,7 +294,7 @@ fn group_conditions(linkage: &Linkage, pose: &Pose, d: &Decomposition) -> Vec<f6
         .collect()
 }
 
-/// How far the links have turned since the pose of the file, about the plane's normal.
+/// Returns the angles by which the links have turned since the pose of the file, about the plane's normal.
 fn turns(linkage: &Linkage, geometry: &Geometry, pose: &PoseOfLinks) -> Vec<f64> {
     let moved: Vec<f64> = pose.columns.iter().map(|c| c.moved).collect();
     let twists = geometry.link_twists(pose.links.len(), &moved);
@@ -305,16 +305,17 @@ fn turns(linkage: &Linkage, geometry: &Geometry, pose: &PoseOfLinks) -> Vec<f64>
 /// The structure of a mechanism under one drive.
 #[derive(Debug, Clone)]
 pub struct DrivenStructure {
-    /// The pair that takes the place of the first drive.
+    /// The pair that replaces the first drive.
     pub drive: PairId,
-    /// The decomposition, and the condition of each group's equations at the pose of the file; or why there is none.
+    /// The decomposition, and the condition number of each group's equations at the pose of the file, or the reason why
+    /// there is none.
     pub found: Result<(Decomposition, Vec<f64>), AssurError>,
 }
 
-/// The structure under every possible drive in place of the first, those at the frame first.
+/// Returns the structure under every possible drive in place of the first, those at the frame first.
 ///
 /// # Errors
-/// Where the mechanism is not planar.
+/// Returns an error if the mechanism is not planar.
 pub fn structures(
     mechanism: &Mechanism,
     state: StateId,

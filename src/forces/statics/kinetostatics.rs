@@ -1,5 +1,5 @@
-//! The loads of a moving planar mechanism and the reactions of its pairs, as its plane has them: those of [`crate::statics::reactions`]
-//! along the axes of the plane, with a sliding block for a pin in a slot.
+//! The loads of a moving planar mechanism and the reactions of its pairs, in its plane. They are those of
+//! [`crate::statics::reactions`] along the axes of the plane, with a sliding block for a pin in a slot.
 
 use crate::geom::Reals;
 use crate::geom::Scalars;
@@ -16,18 +16,18 @@ use serde::Serialize;
 pub struct Load {
     /// The body.
     pub body: BodyId,
-    /// Where it comes from.
+    /// Origin of the load.
     pub source: LoadSource,
-    /// Where it acts now `[m]`.
+    /// Its current point of action `[m]`.
     pub point: [f64; 2],
     /// The force `[N]`.
     pub force: [f64; 2],
-    /// The moment besides `[N·m]`.
+    /// The additional moment `[N·m]`.
     pub moment: f64,
 }
 
 impl Load {
-    /// Moment about a point `[N·m]`.
+    /// Returns the moment about a point `[N·m]`.
     #[must_use]
     pub(crate) fn moment_about(&self, point: [f64; 2]) -> f64 {
         self.moment + cross(minus(self.point, point), self.force)
@@ -40,7 +40,7 @@ pub struct LinkInertia {
     /// The link.
     #[serde(skip)]
     pub body: BodyId,
-    /// Its mass centre now `[m]`.
+    /// Its current mass centre `[m]`.
     pub centre: [f64; 2],
     /// Acceleration of the mass centre `[m/s²]`.
     pub acceleration: [f64; 2],
@@ -55,8 +55,8 @@ pub struct LinkInertia {
 }
 
 impl LinkInertia {
-    /// h_и, how far aside of the mass centre the inertia force alone does what force and moment do `[m]`; not finite where
-    /// the mass centre has no acceleration.
+    /// Returns h_и, the offset from the mass centre at which the inertia force alone is equivalent to force and moment
+    /// `[m]`. It is not finite if the mass centre has no acceleration.
     ///
     /// # Sources
     /// `[Bychkov, Dvornikov & Zhukov 2018]`, who offset the force by it.
@@ -66,13 +66,13 @@ impl LinkInertia {
     }
 }
 
-/// What a pair passes on.
+/// The reaction of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reaction {
     /// The pair.
     #[serde(skip)]
     pub pair: PairId,
-    /// Where the pair is now: its point on the second body `[m]`.
+    /// The current position of the pair: its point on the second body `[m]`.
     pub point: [f64; 2],
     /// Force of the first body on the second `[N]`.
     pub force: [f64; 2],
@@ -83,7 +83,7 @@ pub struct Reaction {
 }
 
 impl Reaction {
-    /// Force and moment about a point on one of the two bodies; zero on any other.
+    /// Returns force and moment about a point on one of the two bodies; zero on any other.
     #[must_use]
     pub fn on(&self, linkage: &Linkage, body: BodyId, about: [f64; 2]) -> [f64; 3] {
         let sign = match linkage.mechanism.pairs[self.pair].bodies {
@@ -96,16 +96,16 @@ impl Reaction {
     }
 }
 
-/// What a solution of the equations of some bodies is worth.
+/// Reliability of a solution of the equations of some bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Worth {
-    /// Ratio of the greatest and smallest singular values, moments divided by the size of the mechanism or group.
+    /// Ratio of the largest to the smallest singular value, with moments divided by the size of the mechanism or group.
     pub condition: f64,
-    /// Greatest force left over in an equation, moments divided by the size, over the greatest load.
+    /// Largest residual force in an equation, with moments divided by the size, over the largest load.
     pub residual: f64,
 }
 
-/// The loads as the plane has them.
+/// Returns the loads in the plane.
 pub(crate) fn planar_loads(linkage: &Linkage, borne: &Borne) -> Vec<Load> {
     let m = &linkage.mechanism;
     let each = borne.loads.iter().filter_map(|x| {
@@ -120,7 +120,7 @@ pub(crate) fn planar_loads(linkage: &Linkage, borne: &Borne) -> Vec<Load> {
     each.collect()
 }
 
-/// How the links with mass move in the plane.
+/// Returns the motion of the links with mass in the plane.
 pub(crate) fn link_inertias(linkage: &Linkage, borne: &Borne) -> Vec<LinkInertia> {
     let m = &linkage.mechanism;
     let each = borne.masses.iter().filter_map(|x| {
@@ -136,7 +136,7 @@ pub(crate) fn link_inertias(linkage: &Linkage, borne: &Borne) -> Vec<LinkInertia
     each.collect()
 }
 
-/// What the pairs pass on where the joints pass that, in file order.
+/// Returns the reactions of the pairs, given those of the joints, in file order.
 pub(crate) fn planar_reactions(
     linkage: &Linkage,
     pose: &Pose,
@@ -169,7 +169,8 @@ pub(crate) fn planar_reactions(
     m.pairs.iter().enumerate().filter_map(one).collect()
 }
 
-/// What reactions are worth in the equations of some bodies for some of the pairs; those of the others count as loads.
+/// Returns the reliability of reactions in the equations of some bodies for some of the pairs. Reactions of the other
+/// pairs count as loads.
 pub(crate) fn worth(
     linkage: &Linkage,
     pose: &Pose,

@@ -1,4 +1,4 @@
-//! A mechanism seen in its plane of motion: bodies joined by turning and sliding pairs, coordinates in metres.
+//! A mechanism in its plane of motion: bodies joined by turning and sliding pairs, with coordinates in metres.
 
 use crate::closure::twist::FrameValues;
 use crate::geom::exact::ExactError;
@@ -18,7 +18,7 @@ pub type PairId = usize;
 /// Sine of the angle below which directions count as parallel, as for the motions of a joint in a plane.
 const PARALLEL: f64 = 1e-10;
 
-/// Why a mechanism has no planar model.
+/// Reason why a mechanism has no planar model.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PlanarError {
@@ -31,7 +31,7 @@ pub enum PlanarError {
         /// The joint.
         joint: String,
     },
-    /// A joint has freedoms in the plane that are not those of a turning, sliding or pin-in-slot pair.
+    /// A joint has freedoms in the plane that do not match a turning, sliding or pin-in-slot pair.
     #[error(
         "joint \"{joint}\" leaves {freedoms} freedoms in the plane; statics knows turning, sliding and pin-in-slot pairs"
     )]
@@ -63,7 +63,7 @@ pub enum PlanarError {
     Exact(#[from] ExactError),
 }
 
-/// How two bodies are joined.
+/// Kind of connection of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PairKind {
     /// One freedom, a turn.
@@ -75,7 +75,7 @@ pub enum PairKind {
 }
 
 impl fmt::Display for PairKind {
-    /// R, P or F, as structural formulas write it.
+    /// Writes R, P or F, as in structural formulas.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             PairKind::Turning => "R",
@@ -88,7 +88,7 @@ impl fmt::Display for PairKind {
 /// A rigid body in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// The link it is; `None` for the sliding block that stands for a pin in a slot.
+    /// The link, or `None` for the sliding block that represents a pin in a slot.
     pub link: Option<LinkId>,
     /// Name of the link, or of the joint with a mark.
     pub name: String,
@@ -97,13 +97,13 @@ pub struct Body {
 /// A turning, sliding or rigid pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
-    /// The joint it is, or is part of.
+    /// The joint that it represents, completely or in part.
     pub joint: JointId,
     /// Name of the joint, with a mark for the sliding half of a pin in a slot.
     pub name: String,
-    /// The two bodies; relative motion is that of the second against the first.
+    /// The two bodies; the relative motion is that of the second relative to the first.
     pub bodies: [BodyId; 2],
-    /// How they are joined.
+    /// Kind of the connection.
     pub kind: PairKind,
     /// Centre of a turning pair, a point of a sliding pair's line, at the pose of the file `[m]`.
     pub point: [f64; 2],
@@ -114,7 +114,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// The body at the other end, if `body` is at one.
+    /// Returns the body at the other end, if `body` is at one end.
     #[must_use]
     pub fn other(&self, body: BodyId) -> Option<BodyId> {
         match self.bodies {
@@ -142,7 +142,7 @@ pub struct PlanarMechanism {
     pub unit: &'static str,
 }
 
-/// The freedoms of a joint as its plane of motion sees them.
+/// The freedoms of a joint in its plane of motion.
 struct FreedomsInPlane {
     turns: usize,
     /// Directions of the slides.
@@ -156,12 +156,12 @@ fn is_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
 }
 
 impl PlanarMechanism {
-    /// The planar model of a state: a spatial mechanism must have all its freedoms in one plane, in planar mode those
-    /// out of it are left out. A pin in a slot becomes a turning pair, a block, and a sliding pair; the pin is on the
-    /// joint's first link, the slot in its second.
+    /// Creates the planar model of a state. A spatial mechanism must have all its freedoms in one plane. In planar
+    /// mode, those out of it are omitted. A pin in a slot becomes a turning pair, a block, and a sliding pair. The pin
+    /// is on the joint's first link, the slot in its second.
     ///
     /// # Errors
-    /// Where a joint fits no planar pair, or joints are coupled.
+    /// Returns an error if a joint fits no planar pair, or if joints are coupled.
     pub fn new(m: &Mechanism, state: StateId) -> Result<Self, PlanarError> {
         if let Some(c) = m.couplings_in(state).next() {
             let coupling = c.name(m);
@@ -202,11 +202,11 @@ impl PlanarMechanism {
         Ok(planar)
     }
 
-    /// The mechanism with motions in this plane alone, where drives that turn do so about its normal.
+    /// Returns the mechanism with only the motions in this plane, in which rotary drives turn about its normal.
     #[must_use]
     pub(crate) fn as_driven(&self, m: &Mechanism) -> Mechanism {
         let mut out = m.clone();
-        // The normal of a mechanism that moves is a number.
+        // The normal of a moving mechanism has a numerical value.
         let normal = self.axes[2].map(|x| Expr::from_f64(x).unwrap_or_else(|_| Expr::from(0)));
         if matches!(m.mode, Mode::Spatial) {
             out.mode = Mode::Planar { normal };
@@ -229,25 +229,25 @@ impl PlanarMechanism {
         out
     }
 
-    /// A point of the file as (x, y) in metres.
+    /// Converts a point of the file to (x, y) in metres.
     #[must_use]
     pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
         self.across(point).map(|c| c * self.metres)
     }
 
-    /// The components of a vector of the file along x and y.
+    /// Returns the components of a vector of the file along x and y.
     #[must_use]
     pub fn across(&self, v: [f64; 3]) -> [f64; 2] {
         [dot(self.axes[0], v), dot(self.axes[1], v)]
     }
 
-    /// The body that a link is, where it is joined to others in this state.
+    /// Returns the body of a link, if it is joined to others in this state.
     #[must_use]
     pub fn body_of(&self, link: LinkId) -> Option<BodyId> {
         self.bodies.iter().position(|b| b.link == Some(link))
     }
 
-    /// The pairs that are marked as drives.
+    /// Returns the pairs that are marked as drives.
     #[must_use]
     pub fn drives(&self) -> Vec<PairId> {
         (0..self.pairs.len())
@@ -255,7 +255,7 @@ impl PlanarMechanism {
             .collect()
     }
 
-    /// What freedoms of a joint are in the plane, with these axes of its frame.
+    /// Returns the freedoms of a joint in the plane, with these axes of its frame.
     fn seen(&self, freedoms: &[Freedom], axes: [[f64; 3]; 3]) -> FreedomsInPlane {
         let normal = |k: usize| is_parallel(axes[k], self.axes[2]);
         let across = |k: usize| dot(axes[k], self.axes[2]).abs() <= PARALLEL;
@@ -346,9 +346,9 @@ fn normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
     }
 }
 
-/// Whether all loads of a mechanism act in its plane: no force across it, no moment that tilts, and none at a point above or
-/// below it where all joints have one height; and no joint is misaligned, which strains the constraints out of the plane. All loads
-/// of a file in planar mode act in its plane.
+/// Returns true if all loads of a mechanism act in its plane. There must be no force normal to it, no tilting moment,
+/// and no force at a point above or below it if all joints have one height. No joint may be misaligned, which strains
+/// the constraints out of the plane. All loads of a file in planar mode act in its plane.
 pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
     let (Mode::Spatial, Ok(n)) = (&m.mode, normal(m, state)) else {
         return true;
@@ -384,8 +384,8 @@ pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
         && loads.moments.iter().all(|x| along(real(&x.moment)))
 }
 
-/// The normal that the joints of a spatial mechanism share: the first axis they turn about, or across the first two
-/// directions they slide in.
+/// Returns the normal shared by the joints of a spatial mechanism. It is the first axis they turn about, or the
+/// direction perpendicular to the first two directions of sliding.
 fn spatial_normal(m: &Mechanism, state: StateId) -> Result<[f64; 3], PlanarError> {
     let mut slides: Vec<[f64; 3]> = Vec::new();
     for j in m.joints_in(state) {

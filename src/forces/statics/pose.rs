@@ -1,7 +1,7 @@
-//! Poses of a planar mechanism and the equations its pairs put on them.
+//! Poses of a planar mechanism and the equations of its pairs.
 //!
-//! A body is placed by where its origin (the mean of its pairs' points) is and how far it has turned since the pose of
-//! the file: (x, y, θ).
+//! The position of a body is given by its origin (the mean of its pairs' points) and its turn since the pose of the
+//! file: (x, y, θ).
 
 use crate::geom::vector::turned;
 pub use crate::geom::vector::{
@@ -18,7 +18,7 @@ pub type Placement = [f64; 3];
 /// One equation of a pair: its coefficients on the first and second body's (x, y, θ).
 pub type Row = [[f64; 3]; 2];
 
-/// Where every body is.
+/// Position of every body.
 pub type Pose = Vec<Placement>;
 
 /// A planar mechanism with the origins of its bodies.
@@ -28,24 +28,24 @@ pub struct Linkage {
     pub mechanism: PlanarMechanism,
     /// Origin of each body at the pose of the file.
     pub origins: Vec<[f64; 2]>,
-    /// A length that is typical of it `[m]`: the greatest distance of a pair from the middle of all; 1 where all
-    /// coincide. Makes moments comparable with forces.
+    /// A typical length `[m]`: the largest distance of a pair from the middle of all; 1 if all coincide. It makes
+    /// moments comparable with forces.
     pub size: f64,
 }
 
-/// What a pair's points and directions are in a pose.
+/// Points and directions of a pair in a pose.
 #[derive(Debug, Clone, Copy)]
 struct Now {
-    /// From the origins of the two bodies to the pair's point on them.
+    /// Vectors from the origins of the two bodies to the pair's point on them.
     arms: [[f64; 2]; 2],
-    /// From the point on the first body to the point on the second.
+    /// Vector from the point on the first body to the point on the second.
     gap: [f64; 2],
-    /// Direction of sliding, with the first body.
+    /// Direction of sliding, fixed to the first body.
     along: [f64; 2],
 }
 
 impl Linkage {
-    /// Takes a mechanism.
+    /// Creates the linkage of a mechanism.
     #[must_use]
     pub fn new(mechanism: PlanarMechanism) -> Linkage {
         let mean = |points: &[[f64; 2]]| {
@@ -74,27 +74,27 @@ impl Linkage {
         }
     }
 
-    /// The pose of the file.
+    /// Returns the pose of the file.
     #[must_use]
     pub fn home(&self) -> Pose {
         self.origins.iter().map(|o| [o[0], o[1], 0.0]).collect()
     }
 
-    /// Where a body's point is that the file puts at `point`.
+    /// Returns the position of a body's point that is at `point` in the file.
     #[must_use]
     pub fn point(&self, pose: &Pose, body: BodyId, point: [f64; 2]) -> [f64; 2] {
         let [x, y, angle] = pose[body];
         plus([x, y], 1.0, turned(minus(point, self.origins[body]), angle))
     }
 
-    /// Direction of a sliding pair in a pose.
+    /// Returns the direction of a sliding pair in a pose.
     #[must_use]
     pub fn along(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
         let p = &self.mechanism.pairs[pair];
         turned(p.along, pose[p.bodies[0]][2])
     }
 
-    /// Where a pair is in a pose: its point on the second body.
+    /// Returns the position of a pair in a pose: its point on the second body.
     #[must_use]
     pub fn place(&self, pose: &Pose, pair: PairId) -> [f64; 2] {
         let p = &self.mechanism.pairs[pair];
@@ -114,14 +114,14 @@ impl Linkage {
         }
     }
 
-    /// How the equations of a pair, two lengths or a length and an angle, and with `drive` that of the drive last, change with the
-    /// placements of the two bodies.
+    /// Returns the derivatives of the equations of a pair with respect to the placements of the two bodies. There are
+    /// two lengths, or a length and an angle, and with `drive` the equation of the drive last.
     #[must_use]
     pub fn rows(&self, pose: &Pose, pair: PairId, drive: bool) -> Vec<Row> {
         let p = &self.mechanism.pairs[pair];
         let now = self.now(pose, p);
         let turn: Row = [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
-        // The derivative of (a direction of the space)·gap.
+        // The derivative of (a fixed direction)·gap.
         let fixed = |n: [f64; 2]| -> Row {
             let [a, b] = now.arms.map(|r| dot(n, quarter(r)));
             [[-n[0], -n[1], -a], [n[0], n[1], b]]
@@ -145,7 +145,8 @@ impl Linkage {
         out
     }
 
-    /// Where the bodies are when links have moved from the pose of the file as in `pose`, and turned by so much.
+    /// Returns the positions of the bodies for links moved from the pose of the file as in `pose`, and turned by these
+    /// angles.
     pub(crate) fn placed(&self, pose: &motion::Pose, turns: &[f64]) -> Pose {
         let m = &self.mechanism;
         let mut out = self.home();
@@ -156,7 +157,7 @@ impl Linkage {
             let [x, y] = m.flat(pose.carried(&pose.links, link, point));
             out[b] = [x, y, turns[link]];
         }
-        // A block goes with the pin of the first link, and turns with the slot of the second.
+        // A block moves with the pin of the first link, and turns with the slot of the second.
         for pin_slot in m.pairs.windows(2) {
             let ([pin, block], [of, slot]) = (pin_slot[0].bodies, pin_slot[1].bodies);
             if block == of && m.bodies[block].link.is_none() {
@@ -167,8 +168,9 @@ impl Linkage {
         out
     }
 
-    /// Ratio of the greatest and smallest singular values of the equations of some bodies by the pairs that place them: angles and
-    /// angular equations are made lengths by the mechanism's size. The equilibrium of the bodies has the transposed equations.
+    /// Returns the ratio of the largest to the smallest singular value of the equations of some bodies for the pairs
+    /// that position them. Angles and angular equations are converted to lengths by the mechanism's size. The
+    /// equilibrium of the bodies has the transposed equations.
     #[must_use]
     pub(crate) fn condition(
         &self,

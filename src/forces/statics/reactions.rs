@@ -1,16 +1,19 @@
 //! Joint reactions of any mechanism, planar or spatial, determinate or not.
 //!
-//! Every joint j passes a wrench w_j on to its second link, and every link but the frame is in equilibrium. Sending all
-//! loads along a spanning tree to the frame gives one solution p; all others are p + Σ ± λ_c, a wrench λ_c round each
-//! contour c. Joints do no work on their freedoms: t·w_j = 0 for each unit twist t of joint j, which is
+//! Every joint j transmits a wrench w_j to its second link, and every link except the frame is in equilibrium. Sending
+//! all loads along a spanning tree to the frame gives one solution p. All others are p + Σ ± λ_c, with a wrench λ_c
+//! around each contour c. Joints do no work on their freedoms: t·w_j = 0 for each unit twist t of joint j, which is
 //!
-//!   Jᵀ λ = -(t·p)        one equation a freedom, six unknowns a contour,
+//!   Jᵀ λ = -(t·p)        one equation per freedom, six unknowns per contour,
 //!
-//! the transposed closure equations. A drive holds its freedom: that freedom's equation is left out, and t·w is the drive's
-//! force or torque. A coupling has a row in J, so that it is one unknown more, which works on its two freedoms alone. With σ = 0 the solution is unique. Where redundant constraints are left, the solutions are a family:
-//! that of minimum norm, Σ |f|² + |m|²/ℓ² over the joints about their own points (ℓ the mechanism's size), plus
-//! self-stresses; and where joints are elastic and made askew, the one that fits. Where undriven motions are left under
-//! which the loads do work, there is no equilibrium [Angeles 2014, ch. 6; Davies 1983].
+//! the transposed closure equations. A drive holds its freedom: that freedom's equation is omitted, and t·w is the
+//! drive's force or torque. A coupling has a row in J. So it is one more unknown, which does work only on its two
+//! freedoms.
+//!
+//! With σ = 0 the solution is unique. If redundant constraints remain, the solutions are a family. Its members are the
+//! solution of minimum norm plus self-stresses. The norm is Σ |f|² + |m|²/ℓ² over the joints about their own points (ℓ
+//! the mechanism's size). If joints are elastic and inaccurate, the compatible solution is chosen. If undriven motions
+//! remain under which the loads do work, there is no equilibrium [Angeles 2014, ch. 6; Davies 1983].
 
 pub mod contact;
 pub(crate) mod couplings;

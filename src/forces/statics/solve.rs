@@ -1,4 +1,4 @@
-//! The joint reactions of any mechanism: in its plane where that determines them, otherwise in space.
+//! The joint reactions of any mechanism: in its plane if that determines them, otherwise in space.
 
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -10,31 +10,32 @@ use crate::statics::reactions::contact::{Contacts, object_at};
 use crate::statics::reactions::cycle::{Cycle, cycle_with};
 use thiserror::Error;
 
-/// Which equations a mechanism's reactions come from.
+/// The equations for a mechanism's reactions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Model {
-    /// Those of its plane, group by group and by the methods for four-link groups; refused where they do not determine it.
+    /// The equations of the plane, group by group and by the methods for four-link groups. An error if they do not
+    /// determine the mechanism.
     Planar,
-    /// All six components of each joint, redundant constraints and all.
+    /// All six components of each joint, including redundant constraints.
     Spatial,
-    /// Those of the plane where they determine it, all loads act in it and there are no contacts with an object, otherwise all
-    /// six.
+    /// The equations of the plane if they determine the mechanism, all loads act in it and there are no contacts with a
+    /// clamped part. Otherwise all six components.
     Either,
-    /// All six, and contacts with an object only push.
+    /// All six components, with contacts with a clamped part that only push.
     Pushing,
 }
 
 /// Reactions over a stroke, or at one pose.
 #[derive(Debug, Clone)]
 pub enum SolvedReactions {
-    /// By the equations of the plane.
+    /// From the equations of the plane.
     Planar(Box<Statics>),
-    /// By those of space.
+    /// From the equations of space.
     Spatial(Cycle),
 }
 
 impl SolvedReactions {
-    /// Whether every position asked for was reached and has a solution.
+    /// Returns true if every requested position was reached and has a solution.
     #[must_use]
     pub fn complete(&self) -> bool {
         match self {
@@ -46,19 +47,19 @@ impl SolvedReactions {
     }
 }
 
-/// Why there are no reactions.
+/// Reason why there are no reactions.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StaticsError {
-    /// In the plane.
+    /// The planar statics have no solution.
     #[error(transparent)]
     Planar(#[from] PlanarStaticsError),
-    /// In space.
+    /// The spatial statics have no solution.
     #[error(transparent)]
     Spatial(#[from] Unsolved),
 }
 
-/// Whether the plane refuses a mechanism that the equations of space may solve.
+/// Returns true if the plane rejects a mechanism that the equations of space may solve.
 pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
     match error {
         PlanarStaticsError::Planar(e) => !matches!(e, PlanarError::Exact(_)),
@@ -67,17 +68,18 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
     }
 }
 
-/// Reactions of a state under the loads of the file over a stroke of the first drive, from the pose of the file; without
-/// one at that pose alone.
+/// Returns the reactions of a state under the loads of the file over a stroke of the first drive, from the pose of the
+/// file. Without a stroke, only that pose is solved.
 ///
 /// # Units
 /// SI; the stroke in `[rad]` or the file's length unit.
 ///
 /// # Errors
-/// [`StaticsError`], where no pose has a solution. A stroke that ends early is an [`SolvedReactions`] that is not complete.
+/// Returns a [`StaticsError`] if no pose has a solution. A stroke that ends early gives a [`SolvedReactions`] that is
+/// not complete.
 ///
 /// # Complexity
-/// O(n³) a position in the plane, n bodies; O((6k)²·f) in space, k contours and f freedoms.
+/// O(n³) per position in the plane, for n bodies; O((6k)²·f) in space, for k contours and f freedoms.
 ///
 /// # Examples
 /// The parallel shears, held in their first position:

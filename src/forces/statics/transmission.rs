@@ -1,4 +1,4 @@
-//! How fast joints move when the drive does.
+//! Speeds of joints relative to that of the drive.
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism};
@@ -7,14 +7,14 @@ use crate::motion::pose::Pose;
 use ozols_dense::svd;
 use thiserror::Error;
 
-/// Singular values below this fraction of the largest count as zero.
+/// Fraction of the largest singular value below which values count as zero.
 const TOLERANCE: f64 = 1e-9;
 
-/// Why there is no transmission ratio.
+/// Reason why there is no transmission ratio.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TransmissionError {
-    /// Not one drive.
+    /// The number of drives is not one.
     #[error("the mechanism has {0} drives; a transmission ratio needs one")]
     Drives(usize),
     /// The drive has no or several freedoms.
@@ -23,10 +23,10 @@ pub enum TransmissionError {
     /// The drive cannot move.
     #[error("drive \"{0}\" cannot move in this pose")]
     Stuck(String),
-    /// The joint moves on its own.
+    /// The joint moves independently of the drive.
     #[error("the speed of joint \"{0}\" does not follow from the drive's")]
     Loose(String),
-    /// No decomposition.
+    /// The decomposition failed.
     #[error("the closure equations have no decomposition; check the coordinates")]
     Numeric,
 }
@@ -36,15 +36,15 @@ pub enum TransmissionError {
 pub struct Rates {
     /// Whether the drive slides; it turns otherwise.
     pub slides: bool,
-    /// Size of each joint's speed: `[rad/m]` for turning joints of a sliding drive (with lengths in metres), `[1]` for those of a
-    /// turning one.
+    /// Absolute speed of each joint: `[rad/m]` for turning joints of a sliding drive (with lengths in metres), `[1]`
+    /// for those of a rotary one.
     pub rates: Vec<f64>,
 }
 
-/// Speeds of turning joints when the one drive moves at unit speed, in a pose of the free state.
+/// Returns the speeds of turning joints if the single drive moves at unit speed, in a pose of the free state.
 ///
 /// # Errors
-/// Where the mechanism has no such ratio.
+/// Returns an error if the mechanism has no such ratio.
 ///
 /// # Complexity
 /// One singular value decomposition of J.

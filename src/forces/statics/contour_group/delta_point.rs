@@ -8,10 +8,10 @@ use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, length, minus, plus, quarter};
 use serde::Serialize;
 
-/// What the method finds on its way; lengths `[m]`, forces `[N]`.
+/// Intermediate results of the method; lengths `[m]`, forces `[N]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DeltaSteps {
-    /// δ, where the lines of rods 6 and 7 meet; not finite where they are parallel `[m]`.
+    /// δ, the intersection of the lines of rods 6 and 7; not finite if they are parallel `[m]`.
     #[serde(rename = "delta_point")]
     pub delta: [f64; 2],
     /// l_Dδ `[m]`.
@@ -39,14 +39,15 @@ fn unit(v: [f64; 2]) -> [f64; 2] {
     v.map(|c| c / l)
 }
 
-/// The two coefficients with a·u + b·v + w = 0: the force plan of two known directions.
+/// Returns the two coefficients with a·u + b·v + w = 0: the force plan of two known directions.
 fn force_plan(u: [f64; 2], v: [f64; 2], w: [f64; 2]) -> [f64; 2] {
     let area = cross(u, v);
     [-cross(w, v) / area, -cross(u, w) / area]
 }
 
-/// Reactions of a group by the δ-point method. Not finite, or of no worth, where rods 6 and 7 are parallel, D lies on the
-/// line through δ along the guide's normal, or D is at δ; the arm h where R_0/10 vanishes.
+/// Returns the reactions of a group by the δ-point method. They are not finite, or worthless, if rods 6 and 7 are
+/// parallel, D lies on the line through δ along the guide's normal, or D is at δ. The same holds for the arm h if
+/// R_0/10 vanishes.
 ///
 /// # Complexity
 /// O(number of loads).
@@ -57,7 +58,7 @@ pub fn solve(g: &GroupPose) -> (GroupReactions, DeltaSteps) {
     let (e6, e7) = (unit(to_f), unit(to_k));
     let r46_tangential = -g.moment_on(1, g.m) / length(to_f);
     let r47_tangential = -g.moment_on(2, g.l) / length(to_k);
-    // δ on both rods' lines.
+    // δ lies on both rods' lines.
     let t = cross(minus(g.l, g.m), e7) / cross(e6, e7);
     let delta = plus(g.m, t, e6);
     // Moments of link 4 about δ: the normal parts of R64 and R74 pass through it.

@@ -10,7 +10,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use ozols_dense::Matrix;
 use std::ops::{Mul, Sub};
 
-/// The two links of each of D, F, K, M, L: the first bears the unknown, the second (if of the group) its opposite.
+/// The two links of each of D, F, K, M, L: the first bears the unknown, the second (if in the group) its opposite.
 const ENDS: [(usize, Option<usize>); 5] = [
     (0, None),
     (1, Some(0)),
@@ -19,8 +19,8 @@ const ENDS: [(usize, Option<usize>); 5] = [
     (2, Some(3)),
 ];
 
-/// The equations with moments about `origins`, in some number system: rows of 12 coefficients and the right side. The
-/// unknowns are the components at D, F, K, M, L, then the guide's reaction and its moment about D.
+/// Returns the equations with moments about `origins`, in some number system: rows of 12 coefficients and the right
+/// side. The unknowns are the components at D, F, K, M, L, then the guide's reaction and its moment about D.
 fn equations<N>(g: &GroupPose, number: impl Fn(f64) -> N, origins: [[f64; 2]; 4]) -> Vec<Vec<N>>
 where
     N: Clone + Sub<Output = N> + Mul<Output = N>,
@@ -77,7 +77,7 @@ fn reactions(x: &[f64], arm: f64) -> GroupReactions {
     }
 }
 
-/// Reactions by LU with partial pivoting, with their worth; `None` where the equations are singular.
+/// Returns the reactions by LU with partial pivoting, with their reliability, or `None` if the equations are singular.
 #[must_use]
 pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
     let size = [g.f, g.k, g.m, g.l]
@@ -86,7 +86,7 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
         .fold(0.0, f64::max);
     let mut rows = equations(g, |x| x, [g.d, g.m, g.l, g.m]);
     for (r, row) in rows.iter_mut().enumerate() {
-        // The couple counts as a force at the group's size, and so do moments.
+        // The couple is scaled to a force at the group's size, and so are moments.
         row[11] *= size;
         if r % 3 == 2 {
             row.iter_mut().for_each(|c| *c /= size);
@@ -113,11 +113,11 @@ pub fn solve(g: &GroupPose) -> Option<(GroupReactions, Worth)> {
     Some((reactions(&x, x[11] / x[10]), worth))
 }
 
-/// Reactions in rational arithmetic, every number of the pose taken as it stands, then rounded; `None` where the equations are
-/// singular or a number is not finite.
+/// Returns the reactions in rational arithmetic, with every number of the pose taken exactly, then rounded. Returns
+/// `None` if the equations are singular or a number is not finite.
 ///
 /// # Complexity
-/// O(12³) operations on whole numbers that grow to some thousand bits.
+/// O(12³) operations on whole numbers that grow to about a thousand bits.
 #[must_use]
 pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
     let numbers = g
@@ -130,8 +130,8 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
     }
     let number = |x: f64| BigRational::from_float(x).unwrap_or_else(BigRational::zero);
     let rows = equations(g, number, [[0.0; 2]; 4]);
-    // Doubles are whole numbers over powers of two, so rows can be made whole; fraction-free Gauss-Jordan elimination
-    // (Bareiss) keeps them so, and leaves the determinant on the diagonal.
+    // Doubles are whole numbers over powers of two, so rows can be scaled to whole numbers. Fraction-free Gauss-Jordan
+    // elimination (Bareiss) preserves this, and leaves the determinant on the diagonal.
     let mut rows: Vec<Vec<BigInt>> = rows.iter().map(|row| whole(row)).collect();
     let mut last = BigInt::one();
     for c in 0..12 {
@@ -141,7 +141,7 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
         let top = rows[c].clone();
         for (r, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != c) {
             let factor = row[c].clone();
-            // Columns already cleared are zero but for the diagonal, which is scaled along.
+            // Cleared columns are zero except for the diagonal, which is scaled along with the rest.
             let first = if r < c { r } else { c };
             for (x, t) in row.iter_mut().zip(&top).skip(first) {
                 *x = (&*x * &top[c] - &factor * t) / &last;
@@ -159,7 +159,7 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
     Some(reactions(&x, arm))
 }
 
-/// A row of dyadic rationals times the power of two that makes it whole.
+/// Returns a row of dyadic rationals times the power of two that makes it whole.
 fn whole(row: &[BigRational]) -> Vec<BigInt> {
     let denominator = row.iter().map(BigRational::denom).max();
     let Some(common) = denominator else {
@@ -170,7 +170,7 @@ fn whole(row: &[BigRational]) -> Vec<BigInt> {
         .collect()
 }
 
-/// The nearest double, or nearly so, of a rational of any length.
+/// Returns the nearest double, or nearly so, of a rational of any length.
 fn real(x: &BigRational) -> f64 {
     let bits = |n: &BigInt| i64::try_from(n.bits()).unwrap_or(i64::MAX);
     if x.is_zero() {

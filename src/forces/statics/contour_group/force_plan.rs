@@ -1,5 +1,5 @@
-//! The force plans of the four-link group: of the whole, then of links 4, 7 and 6, each by the δ-point method and by the
-//! equilibrium of all links.
+//! The force plans of the four-link group: of the whole group, then of links 4, 7 and 6, each by the δ-point method and
+//! by the equilibrium of all links.
 
 use crate::statics::contour_group::pose::GroupReactions;
 use crate::statics::contour_group::solutions::GroupSolutions;
@@ -13,31 +13,31 @@ pub struct PlanForce {
     pub name: String,
     /// `[N]`
     pub force: [f64; 2],
-    /// Where it comes from.
+    /// Origin of the force.
     pub kind: PlanKind,
 }
 
-/// Where a force of a plan comes from.
+/// Origin of a force of a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PlanKind {
     /// A load.
     Load(LoadSource),
-    /// A reaction across its line to δ or along its rod, found from moments.
+    /// A reaction perpendicular to its line to δ or to its rod, found from moments.
     Tangential,
-    /// A reaction that the plan finds, or a whole one.
+    /// A reaction found by the plan, or a complete one.
     Reaction,
 }
 
-/// The forces on a link or group, which add up to nothing.
+/// The forces on a link or group, which add up to zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// Of what: "group", "link 4".
+    /// Subject of the plan: "group", "link 4".
     pub of: &'static str,
-    /// In the order they are drawn.
+    /// The forces in drawing order.
     pub forces: Vec<PlanForce>,
 }
 
-/// Places of the links in the loads, with their letters.
+/// Letters of the links, by their index in the loads.
 const LINKS: [&str; 4] = ["4", "6", "7", "10"];
 
 fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
@@ -54,7 +54,7 @@ fn loads(g: &GroupSolutions, links: &[usize]) -> Vec<PlanForce> {
     named.collect()
 }
 
-/// The loads of the whole group, in the order of its links.
+/// Returns the loads of the whole group, in the order of its links.
 #[must_use]
 pub fn group_loads(g: &GroupSolutions) -> Vec<PlanForce> {
     loads(g, &[0, 1, 2, 3])
@@ -68,7 +68,8 @@ fn reaction(name: &str, force: [f64; 2]) -> PlanForce {
     }
 }
 
-/// A reaction as its part across a line, `tangential` along a quarter turn of the direction from `from` to `to`, and the rest.
+/// Returns a reaction as its part perpendicular to a line, `tangential` along a quarter turn of the direction from
+/// `from` to `to`, and the rest.
 fn parts(
     name: &str,
     whole: [f64; 2],
@@ -83,16 +84,16 @@ fn parts(
     [first, reaction(&format!("{name}n"), minus(whole, across))]
 }
 
-/// A group with the reactions of one method, whose forces are drawn.
+/// A group with the reactions of one method, for drawing its forces.
 struct SolvedGroup<'g> {
     group: &'g GroupSolutions,
     reactions: &'g GroupReactions,
-    /// Whether reactions are drawn in two parts, as the δ-point method finds them.
+    /// Whether reactions are drawn in two parts, as found by the δ-point method.
     split: bool,
 }
 
 impl SolvedGroup<'_> {
-    /// A reaction, whole or in its parts; see [`parts`].
+    /// Returns a reaction, complete or in its parts; see [`parts`].
     fn drawn(
         &self,
         name: &str,
@@ -114,7 +115,7 @@ impl SolvedGroup<'_> {
         self.drawn("R34", whole, tangential, steps.delta, pose.d)
     }
 
-    /// The reaction at F, or with the sign -1 its opposite on the other link.
+    /// Returns the reaction at F, or with the sign -1 its opposite on the other link.
     fn at_f(&self, sign: f64, name: &str) -> Vec<PlanForce> {
         let pose = &self.group.pose;
         let whole = self.reactions.f.map(|x| sign * x);
@@ -122,7 +123,7 @@ impl SolvedGroup<'_> {
         self.drawn(name, whole, tangential, pose.m, pose.f)
     }
 
-    /// The reaction at K, or with the sign -1 its opposite on the other link.
+    /// Returns the reaction at K, or with the sign -1 its opposite on the other link.
     fn at_k(&self, sign: f64, name: &str) -> Vec<PlanForce> {
         let pose = &self.group.pose;
         let whole = self.reactions.k.map(|x| sign * x);
@@ -130,7 +131,7 @@ impl SolvedGroup<'_> {
         self.drawn(name, whole, tangential, pose.l, pose.k)
     }
 
-    /// The loads of some links, and reactions after them.
+    /// Returns the plan of some links: their loads, followed by reactions.
     fn plan(&self, of: &'static str, links: &[usize], reactions: Vec<Vec<PlanForce>>) -> Plan {
         Plan {
             of,
@@ -174,11 +175,12 @@ impl SolvedGroup<'_> {
     }
 }
 
-/// The plans by the δ-point method beside those of the full solve; `None` where the full solve has no solution.
+/// Returns the plans by the δ-point method, paired with those of the full solution. Returns `None` if the full system
+/// has no solution.
 ///
 /// # Sources
-/// `[Bychkov, Dvornikov & Zhukov 2018]`: the plan of the group gives R34n and R0/10, those of the links the rest. Forces are
-/// summed; the couples of inertia are no part of a force plan.
+/// `[Bychkov, Dvornikov & Zhukov 2018]`: the plan of the group gives R34n and R0/10, those of the links the rest.
+/// Forces are summed; the couples of inertia are not part of a force plan.
 #[must_use]
 pub fn force_plans(g: &GroupSolutions) -> Option<Vec<[Plan; 2]>> {
     let (full, _) = g.equilibrium?;

@@ -7,7 +7,7 @@ use crate::statics::pose::{Linkage, Pose, cross, dot, length, minus, quarter};
 use crate::statics::{greatest, rounding, without};
 use serde::Serialize;
 
-/// A group in one pose: what the methods start from.
+/// A group in one pose: the input of the methods.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroupPose {
     /// D `[m]`.
@@ -27,7 +27,7 @@ pub struct GroupPose {
 }
 
 impl GroupPose {
-    /// The group of a mechanism in a pose.
+    /// Creates the group of a mechanism in a pose.
     #[must_use]
     pub fn new(linkage: &Linkage, g: &ContourGroup, pose: &Pose, loads: &[Load]) -> GroupPose {
         let place = |p: PairId| linkage.place(pose, p);
@@ -53,20 +53,20 @@ impl GroupPose {
         }
     }
 
-    /// Direction that the guide's reaction is counted in.
+    /// Returns the reference direction of the guide's reaction.
     #[must_use]
     pub fn normal(&self) -> [f64; 2] {
         quarter(self.guide)
     }
 
-    /// Sum of the forces on a link `[N]`.
+    /// Returns the sum of the forces on a link `[N]`.
     #[must_use]
     pub(crate) fn force_on(&self, link: usize) -> [f64; 2] {
         let own = self.loads.iter().filter(|l| l.body == link);
         own.fold([0.0; 2], |s, l| [s[0] + l.force[0], s[1] + l.force[1]])
     }
 
-    /// Moment of a link's loads about a point `[N·m]`.
+    /// Returns the moment of a link's loads about a point `[N·m]`.
     #[must_use]
     pub(crate) fn moment_on(&self, link: usize, about: [f64; 2]) -> f64 {
         let own = self.loads.iter().filter(|l| l.body == link);
@@ -95,9 +95,9 @@ pub struct GroupReactions {
     pub f: [f64; 2],
     /// R47, of link 4 on link 7 at K `[N]`.
     pub k: [f64; 2],
-    /// Of link 10 on link 6 at M `[N]`.
+    /// Reaction of link 10 on link 6 at M `[N]`.
     pub m: [f64; 2],
-    /// Of link 10 on link 7 at L `[N]`.
+    /// Reaction of link 10 on link 7 at L `[N]`.
     pub l: [f64; 2],
     /// R_0/10, of the guide on link 10 along [`GroupPose::normal`] `[N]`.
     #[serde(rename = "guide")]
@@ -105,20 +105,21 @@ pub struct GroupReactions {
     /// Moment of the guide's reaction about D `[N·m]`.
     #[serde(rename = "guide_moment_about_D")]
     pub guide_moment: f64,
-    /// Arm h of the guide's reaction about D `[m]`: its moment over it; not finite where it vanishes.
+    /// Arm h of the guide's reaction about D `[m]`: its moment over the reaction; not finite if the reaction vanishes.
     #[serde(rename = "h")]
     pub arm: f64,
 }
 
 impl GroupReactions {
-    /// The reactions at D, F, K, M, L, then of the guide as a vector.
+    /// Returns the reactions at D, F, K, M, L, then that of the guide as a vector.
     #[must_use]
     pub fn forces(&self, pose: &GroupPose) -> [[f64; 2]; 6] {
         let guide = pose.normal().map(|c| c * self.guide);
         [self.d, self.f, self.k, self.m, self.l, guide]
     }
 
-    /// Returns the reactions with 0 for what is rounding compared with the greatest of them. A guide that bears nothing has no arm.
+    /// Returns the reactions with 0 for rounding errors relative to the largest of them. A guide without load has no
+    /// arm.
     #[must_use]
     pub(crate) fn without_rounding(&self, pose: &GroupPose) -> GroupReactions {
         // Twelve unknowns in twelve equations.
@@ -138,7 +139,7 @@ impl GroupReactions {
         }
     }
 
-    /// Greatest difference of any force from another solution's, over the greatest force of that.
+    /// Returns the largest difference of any force from another solution's, over the largest force of that solution.
     #[must_use]
     pub fn distance(&self, exact: &GroupReactions, pose: &GroupPose) -> f64 {
         let (mine, theirs) = (self.forces(pose), exact.forces(pose));
@@ -159,7 +160,8 @@ impl GroupReactions {
         }
     }
 
-    /// Where the guide's reaction acts: the distance along the guide from `point`; not finite where it vanishes.
+    /// Returns the position at which the guide's reaction acts: the distance along the guide from `point`. It is not
+    /// finite if the reaction vanishes.
     #[must_use]
     pub fn guide_offset(&self, pose: &GroupPose, point: [f64; 2]) -> f64 {
         // A force N along the normal n at D + a has the moment a × n·N; along the guide u that is a·u N.

@@ -1,13 +1,13 @@
 //! The δ-point method in homogeneous coordinates.
 //!
-//! A force is the line it acts along, (fx, fy, moment about the origin); a point is (x, y, w), at infinity where w = 0. The
-//! moment about a point is w·m - (x, y) × f: about a point at infinity it is the force's component across that
-//! direction. So δ may go to infinity. The normal forces of the rods come from moments about points of the other rod
-//! instead of a force plan, which parallel rods do not close.
+//! A force is its line of action, (fx, fy, moment about the origin). A point is (x, y, w), at infinity if w = 0. The
+//! moment about a point is w·m - (x, y) × f. About a point at infinity it is the force's component perpendicular to
+//! that direction. So δ may go to infinity. The normal forces of the rods come from moments about points of the other
+//! rod instead of a force plan, which parallel rods do not close.
 //!
 //! # Sources
-//! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; R. S. Ball, "A Treatise on the Theory of Screws", 1900, for forces as
-//! lines.
+//! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; R. S. Ball, "A Treatise on the Theory of Screws", 1900, for
+//! forces as lines.
 
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, minus, plus, quarter};
@@ -36,7 +36,7 @@ fn finite(p: [f64; 2]) -> Point {
     [p[0], p[1], 1.0]
 }
 
-/// Where two lines meet.
+/// Returns the intersection of two lines.
 fn meet(a: Line, b: Line) -> Point {
     [
         a[0] * b[2] - b[0] * a[2],
@@ -45,19 +45,20 @@ fn meet(a: Line, b: Line) -> Point {
     ]
 }
 
-/// Moment of a force about a point, times its w.
+/// Returns the moment of a force about a point, times its w.
 fn moment(about: Point, l: Line) -> f64 {
     about[2] * l[2] - (about[0] * l[1] - about[1] * l[0])
 }
 
-/// Reactions of a group by the δ-point method in homogeneous coordinates. Not finite, or of no worth, where D lies on the
-/// line through δ along the guide's normal, or D is at δ; the arm h, not the guide's moment, where R_0/10 vanishes.
+/// Returns the reactions of a group by the δ-point method in homogeneous coordinates. They are not finite, or
+/// worthless, if D lies on the line through δ along the guide's normal, or D is at δ. The same holds for the arm h, but
+/// not for the guide's moment, if R_0/10 vanishes.
 ///
 /// # Complexity
 /// O(number of loads).
 #[must_use]
 pub fn solve(g: &GroupPose) -> GroupReactions {
-    // The origin amid the group keeps moments small.
+    // An origin within the group keeps moments small.
     let points = [g.d, g.f, g.k, g.m, g.l];
     let middle = points.iter().fold([0.0; 2], |s, p| plus(s, 0.2, *p));
     let [d, f, k, m, l] = points.map(|p| minus(p, middle));
@@ -75,12 +76,12 @@ pub fn solve(g: &GroupPose) -> GroupReactions {
     let on7 = tangential(2, l, to_k, k);
     let (line6, line7) = (force_at(m, to_f), force_at(l, to_k));
     let delta = meet(line6, line7);
-    // Moments of link 4 about δ leave R34 across the direction from D to δ.
+    // Moments of link 4 about δ give R34 perpendicular to the direction from D to δ.
     let on4 = sum([load(0), scaled(-1.0, on6), scaled(-1.0, on7)]);
     let along = plus([delta[0], delta[1]], -delta[2], d);
     let part = moment(delta, on4) / dot(along, along);
     let across = quarter(along).map(|c| c * part);
-    // Forces of the whole group across the guide's normal, then along it.
+    // Forces of the whole group perpendicular to the guide's normal, then along it.
     let loads = sum((0..4).map(load));
     let known = plus([loads[0], loads[1]], 1.0, across);
     let normal = g.normal();
@@ -88,7 +89,7 @@ pub fn solve(g: &GroupPose) -> GroupReactions {
     let guide = -dot(plus([loads[0], loads[1]], 1.0, r34), normal) / dot(normal, normal);
     // Moments of the group about D.
     let guide_moment = -moment(finite(d), loads);
-    // Moments of link 4 about a point of one rod's line leave the other rod.
+    // Moments of link 4 about a point of one rod's line give the other rod.
     let on4 = sum([on4, force_at(d, r34)]);
     let along_rod = |line: Line, ends: [[f64; 2]; 2]| {
         let arm = |p: &[f64; 2]| moment(finite(*p), line);

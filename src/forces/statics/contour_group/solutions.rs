@@ -1,4 +1,4 @@
-//! The group solved by all three methods, and how far they differ.
+//! The group solved by all three methods, and their differences.
 
 use crate::statics::contour_group::delta_point::{self, DeltaSteps};
 use crate::statics::contour_group::equilibrium;
@@ -19,14 +19,14 @@ pub enum GroupMethod {
 }
 
 impl GroupMethod {
-    /// All three, in the order of the documentation.
+    /// All three methods, in the order of the documentation.
     pub const ALL: [GroupMethod; 3] = [
         GroupMethod::Delta,
         GroupMethod::Projective,
         GroupMethod::Equilibrium,
     ];
 
-    /// The word for it.
+    /// Returns the word for the method.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -46,11 +46,11 @@ pub struct GroupSolutions {
     pub pose: GroupPose,
     /// By the δ-point method.
     pub delta: GroupReactions,
-    /// What the δ-point method found on its way.
+    /// Intermediate results of the δ-point method.
     pub steps: DeltaSteps,
     /// By its projective form.
     pub projective: GroupReactions,
-    /// By the twelve equilibrium equations, with their worth.
+    /// By the twelve equilibrium equations, with their reliability.
     pub equilibrium: Option<(GroupReactions, Worth)>,
 }
 
@@ -69,7 +69,7 @@ impl GroupSolutions {
         }
     }
 
-    /// Returns the reactions by a method, with 0 for what is rounding; `None` if its equations are singular.
+    /// Returns the reactions by a method, with 0 for rounding errors. Returns `None` if its equations are singular.
     #[must_use]
     pub fn by(&self, method: GroupMethod) -> Option<GroupReactions> {
         let found = match method {
@@ -80,7 +80,8 @@ impl GroupSolutions {
         Some(found.without_rounding(&self.pose))
     }
 
-    /// Greatest difference of any two methods' forces, over the greatest force; `None` with fewer than two.
+    /// Returns the largest difference of any two methods' forces, over the largest force, or `None` with fewer than two
+    /// methods.
     #[must_use]
     pub fn disagreement(&self, methods: &[GroupMethod]) -> Option<f64> {
         let found = methods.iter().filter_map(|m| self.by(*m)).collect_vec();

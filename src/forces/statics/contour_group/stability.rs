@@ -1,7 +1,8 @@
-//! How the three methods for the four-link group lose accuracy as its geometry nears each place where they fail.
+//! Loss of accuracy of the three methods for the four-link group as its geometry approaches each configuration in which
+//! they fail.
 //!
-//! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tried on several groups that
-//! differ by small random shifts of their points, and the median error is kept.
+//! The reference is exact: the same doubles solved in rational arithmetic. Every distance is tested on several groups
+//! that differ by small random shifts of their points, and the median error is reported.
 
 use crate::statics::contour_group::equilibrium::{exact, solve};
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
@@ -11,10 +12,10 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 
-/// Groups tried at each distance in [`study`].
+/// Number of groups tested at each distance in [`study`].
 pub const GROUPS: usize = 9;
 
-/// Where the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
+/// Configurations in which the δ-point method fails. `[Bychkov, Dvornikov & Zhukov 2018]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Failure {
     /// Rods 6 and 7 are parallel: δ is at infinity. The distance is their angle `[rad]`.
@@ -22,14 +23,14 @@ pub enum Failure {
     /// D lies on the line through δ along the guide's normal: R34^n and R_0/10 are parallel, and the group moves. The
     /// distance is the angle between Dδ and the normal `[rad]`.
     AcrossGuide,
-    /// D is at δ. The distance is l_Dδ over what it was.
+    /// D is at δ. The distance is the ratio of l_Dδ to its original value.
     AtDelta,
-    /// The guide bears nothing: h is undefined. The distance is R_0/10 over what it was.
+    /// The guide has no load: h is undefined. The distance is the ratio of R_0/10 to its original value.
     NoGuideReaction,
 }
 
 impl Failure {
-    /// All four.
+    /// All four configurations.
     pub const ALL: [Failure; 4] = [
         Failure::ParallelRods,
         Failure::AcrossGuide,
@@ -37,7 +38,7 @@ impl Failure {
         Failure::NoGuideReaction,
     ];
 
-    /// A word for files.
+    /// Returns a word for files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -57,11 +58,11 @@ pub type ByMethod = [f64; 3];
 pub struct DistanceErrors {
     /// The distance from the failure.
     pub distance: f64,
-    /// Greatest error of a reaction over the greatest reaction.
+    /// Largest error of a reaction over the largest reaction.
     pub forces: ByMethod,
-    /// Error of the arm h over the arm.
+    /// Relative error of the arm h.
     pub arm: ByMethod,
-    /// Condition of the equilibrium equations.
+    /// Condition number of the equilibrium equations.
     pub condition: f64,
 }
 
@@ -74,7 +75,8 @@ fn delta(g: &GroupPose) -> [f64; 2] {
     plus(g.m, cross(minus(g.l, g.m), v) / cross(u, v), u)
 }
 
-/// A group at a distance from a failure; at distance 1 it is of the size of `base`. `None` where `base` has no exact solution.
+/// Returns a group at a distance from a failure. At distance 1 it has the size of `base`. Returns `None` if `base` has
+/// no exact solution.
 #[must_use]
 pub fn at_distance(base: &GroupPose, failure: Failure, distance: f64) -> Option<GroupPose> {
     let mut g = base.clone();
@@ -109,7 +111,7 @@ fn relative(found: f64, exact: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }
 
-/// Errors of the three methods on one group; `None` where its equilibrium is singular.
+/// Returns the errors of the three methods on one group, or `None` if its equilibrium is singular.
 #[must_use]
 fn errors(g: &GroupPose, distance: f64) -> Option<DistanceErrors> {
     let reference = exact(g)?;
@@ -146,7 +148,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Median errors at each distance over some groups near `base`.
+/// Returns the median errors at each distance over some groups near `base`.
 ///
 /// # Complexity
 /// O(distances · groups) exact solutions.
@@ -176,7 +178,7 @@ pub fn samples(
     out
 }
 
-/// Median errors near every failure at distances 1 down to 1e-15, of [`GROUPS`] groups near `base` each.
+/// Returns the median errors near every failure at distances 1 down to 1e-15, each for [`GROUPS`] groups near `base`.
 #[must_use]
 pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)> {
     let distances = distances();
@@ -186,7 +188,7 @@ pub fn study(base: &GroupPose, seed: u64) -> Vec<(Failure, Vec<DistanceErrors>)>
         .collect()
 }
 
-/// Distances 1 down to 1e-15, four a decade.
+/// Returns distances 1 down to 1e-15, four per decade.
 fn distances() -> Vec<f64> {
     (0..=60).map(|i| 10f64.powf(-f64::from(i) / 4.0)).collect()
 }

@@ -1,7 +1,8 @@
-//! Contacts of a clamped object as they act: faces that push, hold by friction, and never pull.
+//! Contacts of a clamped part with their actual behaviour: faces that push, hold by friction, and never pull.
 //!
-//! The equations know a contact as a joint, which pulls as well as pushes. [`contacts`] says which joints are faces and
-//! which way they push; [`Contact::force`] reads what a solution asks of one, and whether a face can do it.
+//! The equations treat a contact as a joint, which pulls as well as pushes. [`contacts`] determines which joints are
+//! faces and in which direction they push. [`Contact::force`] gives the force that a solution requires of one, and
+//! whether a face can provide it.
 
 use crate::geom::vector::{add_scaled, dot, sub};
 use crate::model::joint_type::JointType;
@@ -11,69 +12,69 @@ use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::without;
 use serde::Serialize;
 
-/// How contacts are solved.
+/// Treatment of contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contacts {
-    /// As the joints they are in the file, which may pull.
+    /// As the joints in the file, which may pull.
     AsJoints,
-    /// As faces, which push, with friction within its cone and the pressure within the face where these are stated.
+    /// As faces, which push. Friction stays within its cone and the pressure within the face, if these are stated.
     Pushing,
 }
 
-/// A face of a jaw on an object.
+/// A face of a jaw on a clamped part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// The joint; z of its frame is the face's normal.
     pub joint: JointId,
-    /// What z of the joint's reaction is multiplied by to be a push on the object.
+    /// Factor that turns z of the joint's reaction into a push on the clamped part.
     push: f64,
-    /// Coefficient of friction, where stated.
+    /// Coefficient of friction, if stated.
     pub friction: Option<f64>,
-    /// Radius of the face over the geometry's size, where stated.
+    /// Radius of the face over the geometry's size, if stated.
     pub radius: Option<f64>,
 }
 
-/// What a solution asks of a contact.
+/// Requirement of a solution on a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Touch {
-    /// What a face can do, as far as it is stated.
+    /// A force that the face can provide, as far as its limits are stated.
     Pushes,
-    /// Nothing.
+    /// No force.
     Idle,
-    /// To pull.
+    /// A pulling force.
     Pulls,
-    /// More friction than its pressure gives.
+    /// More friction than its pressure allows.
     Slips,
-    /// Pressure beyond the face.
+    /// Pressure outside the face.
     Tilts,
 }
 
-/// The force of a face on the object.
+/// The force of a face on the clamped part.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactForce {
     /// The joint.
     #[serde(skip)]
     pub joint: JointId,
-    /// Along the normal, negative where it pulls `[N]`.
+    /// Normal force, negative if it pulls `[N]`.
     pub normal: f64,
-    /// Along the face `[N]`.
+    /// Force along the face `[N]`.
     #[serde(rename = "along_face")]
     pub along: f64,
-    /// Moment along the face: that of the normal force where the pressure has its centre aside `[N·m]`.
+    /// Moment along the face, from an offset of the centre of pressure `[N·m]`.
     pub tilting: f64,
-    /// Coefficient of friction, where stated.
+    /// Coefficient of friction, if stated.
     pub friction: Option<f64>,
-    /// Radius of the face `[m]`, where stated.
+    /// Radius of the face `[m]`, if stated.
     pub radius: Option<f64>,
-    /// Whether a face can do that.
+    /// Whether a face can provide this force.
     #[serde(skip)]
     pub touch: Touch,
 }
 
-/// Forces below this fraction of the greatest reaction are none.
+/// Fraction of the largest reaction below which forces count as zero.
 const NOTHING: f64 = 1e-7;
 
-/// The object that a joint is a face on, where it is one.
+/// Returns the clamped part on which a joint is a face, if it is one.
 #[must_use]
 pub fn object_at(m: &Mechanism, joint: JointId) -> Option<LinkId> {
     let joint = &m.joints[joint];
@@ -95,11 +96,11 @@ pub fn object_at(m: &Mechanism, joint: JointId) -> Option<LinkId> {
     }
 }
 
-/// The faces of a state. A face pushes towards the object: the side on which the middle of all its contacts lies, else its
-/// mass centre, else that away from the jaw's other joints.
+/// Returns the faces of a state. A face pushes towards the clamped part: the side with the middle of all its contacts,
+/// or otherwise with its mass centre. If neither decides, it is the side away from the jaw's other joints.
 ///
 /// # Errors
-/// [`Unsolved::Side`] where none of these tells.
+/// Returns [`Unsolved::Side`] if none of these decides.
 pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unsolved> {
     let faces = geometry
         .joints
@@ -147,7 +148,7 @@ pub fn contacts(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Contact>, Unso
 }
 
 impl ContactForce {
-    /// Returns the force with 0 for what is at most `rounding` `[N]`, moments by the `size`.
+    /// Returns the force with 0 for values of at most `rounding` `[N]`, with moments divided by the `size`.
     pub(crate) fn without(self, rounding: f64, size: f64) -> ContactForce {
         ContactForce {
             normal: without(rounding, self.normal),
@@ -159,7 +160,8 @@ impl ContactForce {
 }
 
 impl Contact {
-    /// (moments; forces) at the contact along x, y, z of its frame, z a push where positive, x and y up to one sign.
+    /// Returns (moments; forces) at the contact along x, y, z of its frame. A positive z is a push, and x and y are up
+    /// to one sign.
     pub(crate) fn own(&self, geometry: &Geometry, wrenches: &[Six]) -> Six {
         let w = about(&wrenches[self.joint], geometry.points[self.joint]);
         let axes = geometry.axes[self.joint];
@@ -168,7 +170,7 @@ impl Contact {
         [a, b, c, d, e, f]
     }
 
-    /// What a solution asks of the contact.
+    /// Returns the requirement of a solution on the contact.
     #[must_use]
     pub fn force(&self, geometry: &Geometry, wrenches: &[Six]) -> ContactForce {
         let w = self.own(geometry, wrenches);
@@ -208,15 +210,18 @@ impl Contact {
         }
     }
 
-    /// What z of the joint's reaction is multiplied by to be a push on the object: 1 or -1.
+    /// Returns the factor that turns z of the joint's reaction into a push on the clamped part: 1 or -1.
     #[must_use]
     pub fn push(&self) -> f64 {
         self.push
     }
 
-    /// Arm at which friction resists a moment about the normal where nothing else loads the face: 2/3 r, that of even pressure on
-    /// a round one. With a force along the face the two lie on an ellipse [Howe & Cutkosky 1996]; where the pressure has its centre
-    /// aside, it is even on the round face of radius r - e about that, so that 2/3 μ (r N - M) is left for a tipping moment M.
+    /// Returns the arm at which friction resists a moment about the normal if nothing else loads the face: 2/3 r, that
+    /// of uniform pressure on a round face.
+    ///
+    /// With a force along the face, the two lie on an ellipse [Howe & Cutkosky 1996]. If the centre of pressure is
+    /// offset by e, the pressure is uniform on the round face of radius r - e about it. Then 2/3 μ (r N - M) is left
+    /// for a tipping moment M.
     pub(crate) fn arm(&self) -> Option<f64> {
         self.friction?;
         Some(2.0 / 3.0 * self.radius?)

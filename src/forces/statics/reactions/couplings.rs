@@ -1,40 +1,43 @@
-//! Couplings among the equations: what gears, belts and racks pass from joint to joint.
+//! Couplings in the equations: forces that gears, belts and racks transmit from joint to joint.
 //!
-//! A coupling ties the speeds of two freedoms, e₁ s₁ + e₂ s₂ = 0, and passes one unknown x for it: the wrenches that go from
-//! first link to second at the two joints work on their freedoms by -e₁ x and -e₂ x, where those of other freedoms do no work.
-//! How it gets there makes no difference to any other joint. Where teeth mesh whose place is known they push link on link
-//! ([`Teeth`]), and the two bearings take up what they push; a belt, or what only says a ratio, is a moment about
-//! the axis or a force along it, which no bearing feels.
+//! A coupling relates the speeds of two freedoms, e₁ s₁ + e₂ s₂ = 0, and transmits one unknown x for it. The wrenches
+//! from first link to second at the two joints do work on their freedoms by -e₁ x and -e₂ x, and none on other
+//! freedoms. The path of transmission does not matter to any other joint.
 //!
-//! Two gears on one carrier touch at the point of their centre line that has the same speed on both, a pinion and its rack at
-//! that of the pinion which the rack keeps up with; the force there is along the pitch circles. What teeth press apart, by the
-//! pressure angle of their flanks, the file does not state, nor their friction: both are left out.
+//! If teeth mesh at a known point, they push link on link ([`Teeth`]), and the two bearings carry these forces. A belt,
+//! or a coupling that only states a ratio, is a moment about the axis or a force along it, which no bearing carries.
+//!
+//! Two gears on one carrier touch at the point of their centre line that has the same speed on both. A pinion and its
+//! rack touch at the point of the pinion whose speed is that of the rack. The force there is along the pitch circles.
+//! The separating force of teeth from their pressure angle is not stated in the file, nor is their friction. Both are
+//! omitted.
 
 use crate::geom::vector::{across, add_scaled, cross, dot, length, scale, sub};
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::statics::reactions::wrench::{FreedomColumn, PosedFreedoms, Six, power, within, wrench};
 
-/// Work of teeth on another freedom of a joint, for a unit force, below which they do none.
+/// Work of teeth on another freedom of a joint, for a unit force, below which it counts as zero.
 const NO_WORK: f64 = 1e-9;
 
-/// The equation of a coupling in a pose, and what it passes.
+/// The equation of a coupling in a pose, and its transmitted wrenches.
 #[derive(Debug, Clone)]
 pub struct CouplingEquation {
-    /// The freedoms that are tied.
+    /// The coupled freedoms.
     pub ends: [CoupledFreedom; 2],
     /// e₁ and e₂, for unit twists of the geometry; the sum of their squares is 1.
     pub entries: [f64; 2],
-    /// What passes at each joint from first link to second where nothing but the freedom feels it, for x = 1.
+    /// Wrench at each joint from first link to second if only the freedom is affected, for x = 1.
     pub along_freedoms: [Six; 2],
-    /// The teeth, where the coupling has any whose place is known.
+    /// The teeth, if the coupling has any at a known point.
     pub teeth: Option<Teeth>,
-    /// Whether the joints as they are bear what the teeth push.
+    /// Whether the unchanged joints carry the forces of the teeth.
     pub meshes: bool,
 }
 
 impl CouplingEquation {
-    /// What passes beside the joint at an end from first link to second, for x = 1: by the teeth where these mesh.
+    /// Returns the wrench at an end that bypasses the joint, from first link to second, for x = 1: through the teeth if
+    /// these mesh.
     #[must_use]
     pub fn beside(&self, end: usize, meshes: bool) -> Six {
         match &self.teeth {
@@ -43,7 +46,8 @@ impl CouplingEquation {
         }
     }
 
-    /// Whether a joint with such freedoms bears what the teeth push at an end: they do no work but on the freedom tied.
+    /// Returns true if a joint with such freedoms carries the forces of the teeth at an end: they do no work except on
+    /// the coupled freedom.
     pub fn is_borne<'t>(&self, end: usize, mut others: impl Iterator<Item = &'t Six>) -> bool {
         let Some(teeth) = &self.teeth else {
             return false;
@@ -54,7 +58,7 @@ impl CouplingEquation {
     }
 }
 
-/// The couplings of a state in a pose, in file order.
+/// Returns the couplings of a state in a pose, in file order.
 pub(crate) fn equations(
     m: &Mechanism,
     state: StateId,
@@ -73,7 +77,7 @@ fn equation(
         let mut all = posed.columns.iter();
         all.find(|c| (c.joint, c.freedom) == (e.joint, e.freedom))
     };
-    // The reader sees to it that coupled freedoms are there.
+    // The reader ensures that coupled freedoms exist.
     let [first, second] = coupling.ends.map(at);
     let columns = [first?, second?];
     let entries = entries(posed, coupling);
@@ -97,7 +101,7 @@ fn equation(
     Some(out)
 }
 
-/// Ratios are of radians and the file's unit, twists of radians and the geometry's size.
+/// Returns the entries. Ratios refer to radians and the file's unit, twists to radians and the geometry's size.
 fn entries(posed: &PosedFreedoms<'_>, coupling: &Coupling) -> [f64; 2] {
     let unit = |e: CoupledFreedom| {
         if e.freedom.slides() { posed.size } else { 1.0 }
@@ -108,7 +112,7 @@ fn entries(posed: &PosedFreedoms<'_>, coupling: &Coupling) -> [f64; 2] {
     [first / size, b / size]
 }
 
-/// The unit moment about the axis that a freedom turns about, or the unit force along the line it slides along.
+/// Returns the unit moment about the axis of a turning freedom, or the unit force along the line of a sliding one.
 fn along(posed: &PosedFreedoms<'_>, column: &FreedomColumn) -> Six {
     let t = &column.twist;
     let (turn, slide) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
@@ -119,17 +123,18 @@ fn along(posed: &PosedFreedoms<'_>, column: &FreedomColumn) -> Six {
     }
 }
 
-/// Directions within this sine are alike, lengths below this fraction of the size are nothing.
+/// Sine below which directions count as equal, and fraction of the size below which lengths count as zero.
 const ALIKE: f64 = 1e-9;
 
 /// Teeth in a pose, for x = 1 of their coupling; lengths in the geometry's size, from its middle.
 #[derive(Debug, Clone, Copy)]
 pub struct Teeth {
-    /// Where they touch.
+    /// Contact point.
     pub point: [f64; 3],
     /// Their force on the gear or rack at the first end.
     pub force: [f64; 3],
-    /// By end: what the joint's second link gets of that, from the other gear instead of its first link.
+    /// For each end, the part of that force on the joint's second link, which comes from the other gear instead of its
+    /// first link.
     pub wrenches: [Six; 2],
 }
 
@@ -137,15 +142,15 @@ pub struct Teeth {
 struct Wheel {
     /// Its joint's point.
     centre: [f64; 3],
-    /// Unit vector about which it turns, or along which it slides, against the carrier.
+    /// Unit vector of its axis of rotation or direction of sliding, relative to the carrier.
     along: [f64; 3],
-    /// The moment or force along it that the wheel must get.
+    /// The moment or force along it that the wheel requires.
     needs: f64,
-    /// 1 where the wheel is the joint's second link, else -1.
+    /// 1 if the wheel is the joint's second link, otherwise -1.
     sense: f64,
 }
 
-/// The teeth of a coupling; `None` where the file does not say that there are any, or not where.
+/// Returns the teeth of a coupling, or `None` if the file does not state that there are any, or where they are.
 pub(crate) fn teeth(
     m: &Mechanism,
     posed: &PosedFreedoms<'_>,
@@ -191,7 +196,7 @@ pub(crate) fn teeth(
     })
 }
 
-/// The link that both wheels are on, where they are two others.
+/// Returns the link that carries both wheels, if they are two other links.
 fn carrier(m: &Mechanism, coupling: &Coupling) -> Option<LinkId> {
     let [a, b] = coupling.ends.map(|e| m.joints[e.joint].links);
     let carrier = a.into_iter().find(|l| b.contains(l))?;
@@ -199,21 +204,22 @@ fn carrier(m: &Mechanism, coupling: &Coupling) -> Option<LinkId> {
     (wheel(a)? != wheel(b)?).then_some(carrier)
 }
 
-/// Where two gears touch, and the force on the first.
+/// Returns the point at which two gears touch, and the force on the first.
 fn gears(posed: &PosedFreedoms<'_>, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [f64; 3])> {
     let z = a.along;
     if length(cross(z, b.along)) > ALIKE {
         return None;
     }
     let apart = sub(b.centre, a.centre);
-    // Of axes whose points stand at two heights nothing says at which of them the gears are; in a plane there are none.
+    // If the points of the axes are at two heights, the height of the gears is unknown. In a plane there are no
+    // heights.
     if posed.basis.len() == 6 && dot(apart, z).abs() > ALIKE {
         return None;
     }
     let apart = across(apart, z);
     let distance = length(apart);
     let both = a.needs + dot(z, b.along).signum() * b.needs;
-    // With equal rates about axes apart it is a belt, whatever it is called.
+    // With equal rates about separate axes it is a belt, regardless of its name.
     if distance < ALIKE || both.abs() < ALIKE {
         return None;
     }
@@ -222,7 +228,7 @@ fn gears(posed: &PosedFreedoms<'_>, a: &Wheel, b: &Wheel) -> Option<([f64; 3], [
     Some((point, force))
 }
 
-/// Where a pinion touches its rack, and the force on the pinion.
+/// Returns the point at which a pinion touches its rack, and the force on the pinion.
 fn rack(pinion: &Wheel, rack: &Wheel) -> Option<([f64; 3], [f64; 3])> {
     let (z, u) = (pinion.along, rack.along);
     if dot(z, u).abs() > ALIKE || rack.needs.abs() < ALIKE {

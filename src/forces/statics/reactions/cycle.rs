@@ -22,22 +22,22 @@ pub struct Cycle {
     pub stopped: Option<f64>,
 }
 
-/// Reactions under the file's loads, inertia forces of the stated drive speeds included, over a stroke, or at the pose of
-/// the file.
+/// Returns the reactions under the file's loads, including inertia forces of the stated drive speeds, over a stroke or
+/// at the pose of the file.
 ///
 /// # Errors
-/// [`Unsolved`] where no pose has a solution.
+/// Returns an [`Unsolved`] if no pose has a solution.
 ///
 /// # Complexity
-/// O((6k)²·f) a pose, for k contours and f freedoms.
+/// O((6k)²·f) per pose, for k contours and f freedoms.
 pub fn cycle(m: &Mechanism, state: StateId, stroke: Option<Stroke>) -> Result<Cycle, Unsolved> {
     cycle_with(m, state, stroke, Contacts::AsJoints)
 }
 
-/// The same with contacts as asked for.
+/// Returns the reactions with the requested treatment of contacts.
 ///
 /// # Errors
-/// As [`cycle`].
+/// Returns an error in the same cases as [`cycle`].
 pub(crate) fn cycle_with(
     m: &Mechanism,
     state: StateId,

@@ -1,4 +1,4 @@
-//! Which freedom of a driven joint the drive holds.
+//! The freedom of a driven joint that the drive holds.
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
@@ -9,27 +9,28 @@ use ozols_dense::{Matrix, svd};
 /// A driven joint and the freedom its drive moves.
 pub type Driven = (JointId, Freedom);
 
-/// Shares of the working motion closer than this are equal.
+/// Difference below which shares of the working motion count as equal.
 const EQUAL: f64 = 1e-9;
 
-/// Whether a freedom is a shift, so that its drive's effort is a force.
+/// Returns true if a freedom is a translation, so that its drive's effort is a force.
 #[must_use]
 pub fn slides(freedom: Freedom) -> bool {
     matches!(freedom, Freedom::Tx | Freedom::Ty | Freedom::Tz)
 }
 
-/// After how much of the first drive the ranges of forces come again: a turn, where it turns.
+/// Returns the period of the first drive after which the ranges of forces repeat: one turn, if it turns.
 #[must_use]
 pub fn period(drives: &[Driven]) -> Option<f64> {
     let first = drives.first().filter(|(_, f)| !slides(*f));
     first.map(|_| std::f64::consts::TAU)
 }
 
-/// The freedom of each driven joint that the file names, or else the one that takes the greatest part in the motion of the
-/// outputs (of shifts and turns with equal parts, the shift): the slide of a slider that may also turn about its guide.
+/// Returns the driven freedom of each driven joint. It is the one named in the file, or otherwise the one with the
+/// largest share in the motion of the outputs. If a translation and a rotation have equal shares, the translation
+/// counts. An example is the slide of a slider that may also turn about its guide.
 ///
 /// # Errors
-/// Where singular values do not converge.
+/// Returns an error if singular values do not converge.
 ///
 /// # Complexity
 /// O(f²·6k).
@@ -75,7 +76,7 @@ pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolve
         .collect())
 }
 
-/// Speeds of the freedoms in independent motions that move the outputs.
+/// Returns the speeds of the freedoms in independent motions that move the outputs.
 fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, Unsolved> {
     let n = geometry.columns.len();
     let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
@@ -114,7 +115,7 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
         .collect())
 }
 
-/// An orthonormal basis of the null space.
+/// Returns an orthonormal basis of the null space.
 fn null_space(a: &Matrix) -> Result<Vec<Vec<f64>>, Unsolved> {
     let svd = svd(a).ok_or(Unsolved::NoConvergence)?;
     let null = svd.null_space(svd.rank(TOLERANCE));

@@ -1,5 +1,6 @@
-//! The transposed closure equations of the freedoms, solved by their singular values, what joints and couplings pass on as they have it,
-//! and one of the reactions that redundant constraints leave open: that of minimum norm, or that of elastic joints.
+//! The transposed closure equations of the freedoms, solved by their singular values, for the wrenches of joints and
+//! couplings. If redundant constraints leave reactions open, one of them is chosen: that of minimum norm, or that of
+//! elastic joints.
 
 use crate::model::loads::{Loads, Stiffness};
 use crate::model::mechanism::Mechanism;
@@ -11,14 +12,14 @@ use ozols_dense::{Matrix, Svd, least_squares_pivoted, svd};
 /// Wrenches of the joints and unknowns of the couplings.
 #[derive(Debug, Clone)]
 pub(crate) struct Transmitted {
-    /// By joint: all that goes from its first link to its second, what couplings pass there included.
+    /// For each joint, the total wrench from its first link to its second, including couplings.
     pub(crate) joints: Vec<Six>,
-    /// By coupling of the state: x.
+    /// For each coupling of the state, its x.
     pub(crate) couplings: Vec<f64>,
 }
 
 impl Transmitted {
-    /// Wrenches of joints, and nothing in the couplings.
+    /// Creates wrenches of joints, with zero in the couplings.
     pub(crate) fn of_joints(geometry: &Geometry, joints: Vec<Six>) -> Transmitted {
         Transmitted {
             joints,
@@ -26,8 +27,8 @@ impl Transmitted {
         }
     }
 
-    /// Adds wrenches that go round the contours, their coefficients in the basis, to those of the joints, and the coefficients
-    /// behind them to the couplings.
+    /// Adds wrenches around the contours, given by their coefficients in the basis, to those of the joints. The
+    /// coefficients that follow them are added to the couplings.
     fn add_round(&mut self, geometry: &Geometry, coefficients: &[f64]) {
         let dim = geometry.basis.len();
         for (k, contour) in geometry.contours.iter().enumerate() {
@@ -49,7 +50,7 @@ impl Transmitted {
         }
     }
 
-    /// What the joints bear and their drives do: without what couplings pass beside them.
+    /// Returns the wrenches of the joints and their drives, without the parts of couplings that bypass them.
     pub(crate) fn own(&self, geometry: &Geometry) -> Vec<Six> {
         let mut out = self.joints.clone();
         for (c, x) in geometry.couplings.iter().zip(&self.couplings) {
@@ -63,7 +64,7 @@ impl Transmitted {
         out
     }
 
-    /// All numbers one after another: each joint of the state about its own point, then the couplings.
+    /// Returns all numbers one after another: each joint of the state about its own point, then the couplings.
     pub(crate) fn flat(&self, geometry: &Geometry) -> Vec<f64> {
         let own = self.own(geometry);
         let joints = geometry.joints.iter();
@@ -73,7 +74,7 @@ impl Transmitted {
             .collect()
     }
 
-    /// Adds a multiple of another.
+    /// Adds a multiple of other wrenches.
     pub(crate) fn add(&mut self, factor: f64, other: &Transmitted) {
         let joints = self.joints.iter_mut().flatten();
         for (w, o) in joints.zip(other.joints.iter().flatten()) {
@@ -84,7 +85,7 @@ impl Transmitted {
         }
     }
 
-    /// Multiplies all.
+    /// Multiplies all wrenches.
     pub(crate) fn scale(&mut self, factor: f64) {
         let joints = self.joints.iter_mut().flatten();
         joints.chain(&mut self.couplings).for_each(|x| *x *= factor);
@@ -135,7 +136,8 @@ impl<'g> System<'g> {
         }
     }
 
-    /// What the joints' wrenches do on the freedoms of the equations, but for what couplings pass there.
+    /// Returns the work of the joints' wrenches on the freedoms of the equations, without the parts that couplings
+    /// transmit.
     fn work(&self, of: &Transmitted) -> Vec<f64> {
         let columns = self.equations.iter().map(|&c| &self.geometry.columns[c]);
         let one = |c: &FreedomColumn| {
@@ -146,9 +148,10 @@ impl<'g> System<'g> {
         columns.map(one).collect()
     }
 
-    /// Adds contour wrenches and what couplings pass so that no freedom is worked on, as far as that goes; what work is left.
+    /// Adds contour wrenches and coupling unknowns so that no work is done on the freedoms, as far as possible. Returns
+    /// the remaining work.
     pub(crate) fn solve(&self, of: &mut Transmitted) -> Vec<f64> {
-        // The second round takes away the first one's rounding errors.
+        // The second round removes the rounding errors of the first.
         for _ in 0..2 {
             let work = self.work(of);
             let mut coefficients = vec![0.0; self.unknowns];
@@ -164,7 +167,7 @@ impl<'g> System<'g> {
         self.work(of)
     }
 
-    /// Independent sets of wrenches that are in equilibrium by themselves, by joint, with what couplings pass of them.
+    /// Returns independent sets of self-equilibrated wrenches, by joint, including those of couplings.
     pub(crate) fn self_stresses(&self, joints: usize) -> Vec<Transmitted> {
         let one = |i: usize| {
             let mut out = Transmitted::of_joints(self.geometry, vec![[0.0; 6]; joints]);
@@ -178,11 +181,12 @@ impl<'g> System<'g> {
     }
 }
 
-/// The weight of couplings beside the greatest of a joint, where they are as good as rigid: the square of it is far below what
-/// stiffness is known to, and yet it keeps self-stresses apart that load couplings alone.
+/// Weight of couplings relative to the largest weight of a joint, if they are practically rigid. Its square is far
+/// below the accuracy of stiffness, but it keeps self-stresses apart that load only couplings.
 const RIGID: f64 = 1e-6;
 
-/// Adds self-stresses so that Σ (weight · value - aim)² becomes least; weights and aims by value of [`Transmitted::flat`].
+/// Adds self-stresses so that Σ (weight · value - aim)² is minimal, with weights and aims by value of
+/// [`Transmitted::flat`].
 fn fit(
     geometry: &Geometry,
     of: &mut Transmitted,
@@ -205,17 +209,19 @@ fn fit(
     }
 }
 
-/// The wrenches of least Σ |f|² + |m|²/ℓ² over the joints, about their own points, and over what couplings pass at both ends.
+/// Adds self-stresses so that Σ |f|² + |m|²/ℓ² is minimal over the joints, about their own points, and over the
+/// wrenches of couplings at both ends.
 pub(crate) fn least_norm(geometry: &Geometry, of: &mut Transmitted, stresses: &[Transmitted]) {
-    // The entries of a coupling have 1 for the sum of their squares: x² is that of both ends.
+    // The squares of the entries of a coupling add up to 1, so x² is the sum for both ends.
     let n = 6 * geometry.joints.len() + geometry.couplings.len();
     fit(geometry, of, stresses, &vec![1.0; n], &vec![0.0; n]);
 }
 
-/// The wrenches of elastic joints, made askew as stated: of all that are in equilibrium, those of least energy
-/// Σ ½ wᵀC w - wᵀd, C the joint's compliance and d what it is out by; couplings are rigid. With them the greatest force, or
-/// moment by size, that a joint which cannot give way would bear for what it is out by. `None` where no stiffness is stated or
-/// nothing is left open.
+/// Returns the wrenches of elastic joints with the stated misalignments. Among all wrenches in equilibrium, they
+/// minimise the energy Σ ½ wᵀC w - wᵀd, with C the joint's compliance and d its misalignment; couplings are rigid.
+///
+/// Also returns the largest force, or moment divided by size, that a rigid joint would carry for its misalignment.
+/// Returns `None` if no stiffness is stated or nothing is left open.
 pub(crate) fn elastic(
     m: &Mechanism,
     geometry: &Geometry,
@@ -254,7 +260,7 @@ pub(crate) fn elastic(
     Some((of, strained.fold(0.0, f64::max)))
 }
 
-/// The stiffness of a joint type: its own, or the default.
+/// Returns the stiffness of a joint type: its own, or the default.
 fn stiffness(loads: &Loads, name: &str) -> Option<Stiffness> {
     let find = |name: &str| loads.stiffness.iter().find(|(n, _)| n == name);
     find(name).or_else(|| find("default")).map(|(_, s)| *s)

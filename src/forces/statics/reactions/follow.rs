@@ -7,25 +7,26 @@ use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::unsolved::Unsolved;
 
-/// Poses by position of the drive, with the position it could not go on from, if any.
+/// Poses by position of the drive, with the position at which it stopped, if any.
 #[derive(Debug)]
 pub struct Followed {
     /// Position of the drive since the pose of the file `[rad]` or in the file's unit, and the pose.
     pub poses: Vec<(f64, Pose)>,
     /// First position that could not be reached.
     pub stopped: Option<f64>,
-    /// Where the drive stands instead of there, and the pose.
+    /// The position of the drive where it stopped, and the pose.
     pub last: Option<(f64, Pose)>,
 }
 
-/// The poses of a stroke, outward from that of the file on its branch; that of the file alone without a stroke. Freedoms
-/// that no drive holds move as little as they need; of several drives the others keep step with the first by their speeds.
+/// Returns the poses of a stroke, outward from that of the file on its branch, or only that of the file without a
+/// stroke. Freedoms that no drive holds move as little as possible. With several drives, the others keep step with the
+/// first by their speeds.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// O((6k)²·f) a Newton step, for k contours and f freedoms.
+/// O((6k)²·f) per Newton step, for k contours and f freedoms.
 pub fn follow(
     m: &Mechanism,
     state: StateId,
@@ -36,10 +37,10 @@ pub fn follow(
     follow_to(m, state, drives, &wanted)
 }
 
-/// The poses at positions of the first drive, by position; that of the file alone where nothing is driven.
+/// Returns the poses at positions of the first drive, by position, or only that of the file if nothing is driven.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 pub fn follow_to(
     m: &Mechanism,
     state: StateId,
@@ -94,7 +95,7 @@ pub fn follow_to(
     Ok(out)
 }
 
-/// Radians, or the file's unit of length, in a unit that a column moves by.
+/// Returns the number of radians, or of the file's units of length, in one unit of a column.
 fn unit(pose: &Pose, column: usize) -> f64 {
     if slides(pose, column) {
         pose.length

@@ -1,8 +1,8 @@
-//! A pose in numbers fit for statics: unit twists about the middle of the joints, lengths in the mechanism's size.
+//! A pose in numbers suitable for statics: unit twists about the middle of the joints, lengths in the mechanism's size.
 //!
-//! Middle and size are the mean and the root mean square distance of the joints' points, so that nothing found with them
-//! depends on the axes the file is written in. Twists are (ω; v), wrenches (m; f), forces in newtons and moments in newtons
-//! times the size.
+//! Middle and size are the mean and the root mean square distance of the joints' points, so that results do not depend
+//! on the axes of the file. Twists are (ω; v), wrenches (m; f), forces in newtons and moments in newtons times the
+//! size.
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::closure::tree::{TreeStep, spanning_tree};
@@ -18,7 +18,7 @@ use crate::statics::reactions::couplings::{CouplingEquation, equations};
 pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wrench};
 use crate::statics::reactions::wrench::{PosedFreedoms, within};
 
-/// Singular values below this fraction of the greatest count as zero.
+/// Fraction of the largest singular value below which values count as zero.
 pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// A pose of a mechanism in one state.
@@ -26,7 +26,7 @@ pub(crate) const TOLERANCE: f64 = 1e-9;
 pub struct Geometry {
     /// The state.
     pub state: StateId,
-    /// Orthonormal wrenches that contours carry: six, or the three of a plane.
+    /// Orthonormal wrenches that contours transmit: six, or the three of a plane.
     pub basis: Vec<Six>,
     /// The size `[m]`.
     pub size: f64,
@@ -38,25 +38,25 @@ pub struct Geometry {
     pub joints: Vec<JointId>,
     /// The freedoms, grouped by joint.
     pub columns: Vec<FreedomColumn>,
-    /// By joint: its point now, from the middle, in the size.
+    /// For each joint, its current point, from the middle, in the size.
     pub points: Vec<[f64; 3]>,
-    /// By joint: unit vectors x, y, z of its frame now (it moves with the joint's first link).
+    /// For each joint, the current unit vectors x, y, z of its frame, which moves with the joint's first link.
     pub axes: Vec<[[f64; 3]; 3]>,
     /// The contours.
     pub contours: Vec<Contour>,
     /// The couplings, in file order.
     pub couplings: Vec<CouplingEquation>,
-    /// The links but the frame, each after the one it hangs on.
+    /// The links except the frame, each after the one that supports it.
     pub tree: Vec<TreeStep>,
     /// Middle and half diagonal of the pose, in the file's unit.
     pose: ([f64; 3], f64),
 }
 
 impl Geometry {
-    /// The geometry of a state at a pose of it.
+    /// Computes the geometry of a state at one of its poses.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn new(m: &Mechanism, state: StateId, pose: &Pose) -> Result<Geometry, ExactError> {
         let metres = m.length_unit.metres;
         let joints: Vec<JointId> = m.joints_in(state).collect();
@@ -107,13 +107,14 @@ impl Geometry {
         Ok(out)
     }
 
-    /// How many unknowns its equations have: wrenches round the contours, and one of each coupling.
+    /// Returns the number of unknowns of its equations: wrenches around the contours, and one for each coupling.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         self.basis.len() * self.contours.len() + self.couplings.len()
     }
 
-    /// Where a point of a link is now, from the middle, in the size; `point` in the file's unit at the pose of the file.
+    /// Returns the current position of a point of a link, from the middle, in the size. `point` is in the file's unit
+    /// at the pose of the file.
     #[must_use]
     pub fn place(&self, pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
         let (mean, spread) = self.pose;
@@ -121,32 +122,32 @@ impl Geometry {
         sub(p, mean).map(|x| x / spread)
     }
 
-    /// A point from the middle, in the size, in metres from the origin of the file.
+    /// Converts a point from the middle, in the size, to metres from the origin of the file.
     #[must_use]
     pub(crate) fn to_metres(&self, point: [f64; 3]) -> [f64; 3] {
         add_scaled(self.middle, self.size, point)
     }
 
-    /// Whether a link is there in the state, and not the frame.
+    /// Returns true if a link exists in the state and is not the frame.
     #[must_use]
     pub(crate) fn carries(&self, link: LinkId) -> bool {
         self.tree.iter().any(|s| s.link == link)
     }
 
-    /// A point of the file, from the middle, in the size; of links that are as in the file.
+    /// Converts a point of the file to one from the middle, in the size, for links at their position in the file.
     #[must_use]
     pub fn of_file(&self, point: [f64; 3]) -> [f64; 3] {
         let (mean, spread) = self.pose;
         sub(point, mean).map(|x| x / spread)
     }
 
-    /// The part of a wrench that the model can carry: all of it, or what is in the plane.
+    /// Returns the part of a wrench that the model can carry: all of it, or the part in the plane.
     #[must_use]
     pub fn within(&self, w: &Six) -> Six {
         within(&self.basis, w)
     }
 
-    /// The wrenches that joints pass on to their second links when all loads go along the tree to the frame; by joint.
+    /// Returns the wrenches of joints on their second links if all loads go along the tree to the frame, by joint.
     #[must_use]
     pub fn along_tree(&self, joints: usize, loads: &[Six]) -> Vec<Six> {
         let mut hanging = loads.to_vec();
@@ -167,7 +168,7 @@ impl Geometry {
         out
     }
 
-    /// The entries of the couplings at a column, by the coupling's place.
+    /// Returns the entries of the couplings at a column, by the coupling's index.
     pub fn coupling_entries(&self, column: &FreedomColumn) -> impl Iterator<Item = (usize, f64)> {
         let own = (column.joint, column.freedom);
         let all = self.couplings.iter().enumerate();
@@ -178,8 +179,8 @@ impl Geometry {
         })
     }
 
-    /// The row of the transposed closure matrix that belongs to a column: its power on a unit of each contour's wrenches, then
-    /// its entries in the couplings.
+    /// Returns the row of the transposed closure matrix for a column: its power on a unit of each contour's wrenches,
+    /// then its entries in the couplings.
     #[must_use]
     pub fn row(&self, column: &FreedomColumn) -> Vec<f64> {
         let dim = self.basis.len();
@@ -199,7 +200,7 @@ impl Geometry {
         out
     }
 
-    /// Twists of the links when the freedoms move at these speeds; by link.
+    /// Returns the twists of the links if the freedoms move at these speeds, by link.
     #[must_use]
     pub fn link_twists(&self, links: usize, speeds: &[f64]) -> Vec<Six> {
         let mut of_joint = vec![[0.0; 6]; self.points.len()];
@@ -223,7 +224,7 @@ impl Geometry {
     }
 }
 
-/// Where the joints' frames are at a pose, by joint.
+/// Positions of the joints' frames at a pose, by joint.
 struct FramesNow {
     /// Their points, in the file's unit.
     points: Vec<[f64; 3]>,
@@ -244,7 +245,7 @@ impl FramesNow {
     }
 }
 
-/// Mean and root mean square distance from it of the points of joints; `length` where they are one point.
+/// Returns the mean of the points of joints, and the root mean square distance from it, or `length` if they coincide.
 fn middle(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f64) {
     #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
     let count = joints.len().max(1) as f64;
@@ -263,7 +264,7 @@ fn middle(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f6
     }
 }
 
-/// Orthonormal wrenches that contours carry: six, or the three of a plane.
+/// Returns orthonormal wrenches that contours transmit: six, or the three of a plane.
 fn carried(mode: &Mode) -> Result<Vec<Six>, ExactError> {
     Ok(match MotionSpace::new(&Reals, mode)? {
         MotionSpace::Spatial => (0..6)
@@ -280,7 +281,7 @@ fn carried(mode: &Mode) -> Result<Vec<Six>, ExactError> {
     })
 }
 
-/// Where a point of a link is now, in the file's unit.
+/// Returns the current position of a point of a link, in the file's unit.
 fn moved(pose: &Pose, link: LinkId, point: [f64; 3]) -> [f64; 3] {
     let from = sub(point, pose.middle).map(|x| x / pose.length);
     let to = pose.links[link].point(from);

@@ -1,9 +1,10 @@
-//! Inertia forces of the links while the drives go at constant speeds.
+//! Inertia forces of the links while the drives move at constant speeds.
 //!
-//! Speeds of the freedoms close every contour, Σ ± q̇ t = 0, and so do their rates: Σ ± q̈ t = -Σ ± q̇ [V, t], where V is the
-//! velocity of what carries the freedom's twist t along the contour and [V, t] the bracket of twists
-//! [Müller 2018, "Screw and Lie group theory in multibody kinematics", sec. 4]. Idle freedoms take the least speeds and rates
-//! that close. Then, by D'Alembert, a link carries -m a at its mass centre and -(I α + ω × I ω) besides.
+//! Speeds of the freedoms close every contour, Σ ± q̇ t = 0, and their rates also close: Σ ± q̈ t = -Σ ± q̇ [V, t].
+//! Here V is the velocity of the body that carries the freedom's twist t along the contour, and [V, t] the bracket of
+//! twists [Müller 2018, "Screw and Lie group theory in multibody kinematics", sec. 4]. Idle freedoms have the smallest
+//! speeds and rates that close. By D'Alembert, a link then carries the force -m a at its mass centre and the moment -(I
+//! α + ω × I ω).
 
 use crate::closure::tree::TreeStep;
 use crate::geom::vector::{cross, dot, real};
@@ -16,9 +17,9 @@ use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::{greatest, rounding, without};
 use ozols_dense::{Matrix, svd};
 
-/// Contours may stay open by this fraction of the speeds (or rates) in them.
+/// Maximum gap of contours, as a fraction of the speeds (or rates) in them.
 const CLOSES: f64 = 1e-7;
-/// Turns are about one direction where they are this near to it.
+/// Tolerance within which turns are about one direction.
 const PARALLEL: f64 = 1e-9;
 
 /// Velocities and accelerations of the links, as twists and their rates about the geometry's middle, lengths in its size.
@@ -30,7 +31,7 @@ pub(crate) struct LinkMotions {
     pub rate: Vec<Six>,
 }
 
-/// The bracket of two twists: the rate of `t` carried along with velocity `v`.
+/// Returns the bracket of two twists: the rate of `t` carried along with velocity `v`.
 fn bracket(v: &Six, t: &Six) -> Six {
     let (w, u) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
     let (tw, tv) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
@@ -51,7 +52,7 @@ fn add(to: &mut Six, factor: f64, x: &Six) {
     }
 }
 
-/// The columns of a joint in the order they are passed in, with their direction.
+/// Returns the columns of a joint in the order of passage, with their direction.
 fn walk(geometry: &Geometry, joint: JointId, forward: bool) -> Vec<(usize, f64)> {
     let own = (0..geometry.columns.len()).filter(|&c| geometry.columns[c].joint == joint);
     if forward {
@@ -61,7 +62,7 @@ fn walk(geometry: &Geometry, joint: JointId, forward: bool) -> Vec<(usize, f64)>
     }
 }
 
-/// The least x with `matrix` x = `right`; `None` where there is none.
+/// Returns the smallest x with `matrix` x = `right`, or `None` if there is none.
 fn least(matrix: &Matrix, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>, Unsolved> {
     let svd = svd(matrix).ok_or(Unsolved::NoConvergence)?;
     let x = svd.least_norm(svd.rank(TOLERANCE), &Matrix::column(right));
@@ -75,11 +76,11 @@ fn least(matrix: &Matrix, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>,
     Ok((!open && x.iter().all(|v| v.is_finite())).then_some(x))
 }
 
-/// The motion of the links in a pose when the drives go at constant `speeds`: `[rad/s]`, or the file's unit a second; those
-/// not stated stand still.
+/// Returns the motion of the links in a pose if the drives move at constant `speeds`: `[rad/s]`, or the file's unit per
+/// second. Drives without a stated speed are at rest.
 ///
 /// # Errors
-/// Where the drives cannot go at these speeds, as at a dead point.
+/// Returns an error if the drives cannot move at these speeds, as at a dead point.
 ///
 /// # Complexity
 /// O((6k)²·f) for k contours and f freedoms.
@@ -123,7 +124,7 @@ pub(crate) fn motion(
     }
     let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));
     let mut right = to_make_up(geometry, &speed);
-    // A ratio is the same in every pose, and so rates are tied as speeds are.
+    // A ratio is the same in every pose, so rates are coupled in the same way as speeds.
     right.resize(height, 0.0);
     let found = least(&part, &right, fastest * fastest)?.ok_or_else(stuck)?;
     let mut rates = vec![0.0; f];
@@ -133,7 +134,8 @@ pub(crate) fn motion(
     Ok(along_tree(m.links.len(), geometry, &speed, &rates))
 }
 
-/// What the rates of the freedoms have to make up for: less what the contours would gain at constant speeds of all freedoms.
+/// Returns what the rates of the freedoms have to compensate: the negative rate of the contours at constant speeds of
+/// all freedoms.
 fn to_make_up(geometry: &Geometry, speed: &[f64]) -> Vec<f64> {
     let mut right = Vec::with_capacity(geometry.unknowns());
     for contour in &geometry.contours {
@@ -150,7 +152,7 @@ fn to_make_up(geometry: &Geometry, speed: &[f64]) -> Vec<f64> {
     right
 }
 
-/// The motions of the links at speeds and rates of the freedoms, from the frame outwards.
+/// Returns the motions of the links at speeds and rates of the freedoms, from the frame outwards.
 fn along_tree(links: usize, geometry: &Geometry, speed: &[f64], rates: &[f64]) -> LinkMotions {
     let mut out = LinkMotions {
         velocity: vec![[0.0; 6]; links],
@@ -179,15 +181,15 @@ fn turn(t: &Six) -> [f64; 3] {
     [t[0], t[1], t[2]]
 }
 
-/// Inertia of a link now about global axes times a vector `[kg·m²]`.
+/// Returns the current inertia of a link about global axes times a vector `[kg·m²]`.
 fn times(pose: &Pose, link: LinkId, inertia: &Inertia, v: [f64; 3]) -> [f64; 3] {
     let [xx, yy, zz, xy, yz, zx] = match *inertia {
-        // About the one direction all turn about.
+        // About the common direction of all turns.
         Inertia::Plane(i) => return v.map(|x| i * x),
         Inertia::Principal([x, y, z]) => [x, y, z, 0.0, 0.0, 0.0],
         Inertia::Tensor(t) => t,
     };
-    // Back to where the file states it, and forth again.
+    // Converts to the pose for which the file states it, and back.
     let unit = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(k == i)));
     let axes = [0, 1, 2].map(|i| pose.links[link].direction(unit(i)));
     let own = axes.map(|a| dot(a, v));
@@ -195,7 +197,7 @@ fn times(pose: &Pose, link: LinkId, inertia: &Inertia, v: [f64; 3]) -> [f64; 3] 
     [0, 1, 2].map(|i| (0..3).map(|k| turned[k] * axes[k][i]).sum())
 }
 
-/// Returns the size of the greatest entry of an inertia `[kg·m²]`.
+/// Returns the absolute value of the largest entry of an inertia `[kg·m²]`.
 fn greatest_entry(inertia: &Inertia) -> f64 {
     match inertia {
         Inertia::Plane(i) => i.abs(),
@@ -209,7 +211,7 @@ fn greatest_entry(inertia: &Inertia) -> f64 {
 pub(crate) struct MovingMass {
     /// The link.
     pub link: LinkId,
-    /// Its mass centre now, from the geometry's middle, in its size.
+    /// Its current mass centre, from the geometry's middle, in its size.
     pub centre: [f64; 3],
     /// Acceleration of the mass centre `[m/s²]`.
     pub acceleration: [f64; 3],
@@ -221,10 +223,11 @@ pub(crate) struct MovingMass {
     pub moment: [f64; 3],
 }
 
-/// The links with mass in the order of the file, the frame left out, with their inertia forces while the links move so.
+/// Returns the links with mass in the order of the file, without the frame, with their inertia forces for this motion
+/// of the links.
 ///
 /// # Errors
-/// Where a link that states its inertia for a plane turns in space.
+/// Returns an error if a link that states its inertia for a plane turns in space.
 pub(crate) fn moving_masses(
     m: &Mechanism,
     geometry: &Geometry,
@@ -242,8 +245,8 @@ pub(crate) fn moving_masses(
         about.is_some_and(|w| size(cross(w, v)) > PARALLEL * size(w) * size(w).max(size(v)))
     };
     let flat = !moves.velocity.iter().any(|v| aside(turn(v)));
-    // Accelerations are sums of terms as great as the squares of the speeds, lengths in the geometry's size. They are solved for, and
-    // the speeds in them were before: each solution adds its rounding.
+    // Accelerations are sums of terms as large as the squares of the speeds, with lengths in the geometry's size. They
+    // are solved for, as were the speeds in them, and each solution adds its rounding.
     let speed = greatest(moves.velocity.iter().flatten());
     let rounding = rounding(0.0, speed * speed, 8 * geometry.unknowns());
     let bare = |v: [f64; 3]| v.map(|x| without(rounding, x));
@@ -279,7 +282,7 @@ pub(crate) fn moving_masses(
             centre,
             acceleration,
             angular_acceleration: bare(alpha),
-            // From 0, so that 0 has no sign.
+            // Subtracting from 0 avoids a signed zero.
             force: acceleration.map(|x| 0.0 - mass.mass * x),
             moment,
         });

@@ -1,4 +1,4 @@
-//! What the links of a mechanism bear in a pose: weights, inertia forces, and forces and moments from outside.
+//! Loads on the links of a mechanism in a pose: weights, inertia forces, and external forces and moments.
 
 use crate::geom::vector::real;
 use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
@@ -9,14 +9,14 @@ use crate::statics::reactions::geometry::{Geometry, Six, power, wrench};
 use crate::statics::reactions::inertia::{MovingMass, motion, moving_masses};
 use crate::statics::reactions::unsolved::Unsolved;
 
-/// Where a load comes from.
+/// Origin of a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadSource {
     /// Weight.
     Gravity,
     /// Inertia force and moment.
     Inertia,
-    /// A force from outside.
+    /// An external force.
     External,
 }
 
@@ -25,19 +25,21 @@ pub enum LoadSource {
 pub(crate) struct LinkLoad {
     /// The link.
     pub(crate) link: LinkId,
-    /// Where it comes from.
+    /// Origin of the load.
     pub(crate) source: LoadSource,
-    /// Where it acts now, from the geometry's middle, in its size.
+    /// Its current point of action, from the geometry's middle, in its size.
     pub(crate) point: [f64; 3],
     /// The force `[N]`.
     pub(crate) force: [f64; 3],
-    /// The moment besides `[N·m]`.
+    /// The additional moment `[N·m]`.
     pub(crate) moment: [f64; 3],
 }
 
-/// Weights, each followed by the inertia force of the link, then moments and forces from outside; those on the frame, on links absent
-/// from the state and of other states are left out. `drive` is the first drive's position since the pose of the file `[rad]` or in the
-/// file's unit, for forces that act in a range of it; ranges come again after `period`.
+/// Returns weights, each followed by the inertia force of the link, then external moments and forces. Loads on the
+/// frame, on links absent from the state and of other states are omitted.
+///
+/// `drive` is the first drive's position since the pose of the file, `[rad]` or in the file's unit, for forces that act
+/// in a range of it. Ranges repeat after `period`.
 fn loads_of_links(
     m: &Mechanism,
     loads: &Loads,
@@ -84,7 +86,8 @@ fn loads_of_links(
     out
 }
 
-/// The sum of the loads of each link about the geometry's middle, and in planar mode without what is across the plane.
+/// Returns the sum of the loads of each link about the geometry's middle, in planar mode without the parts out of the
+/// plane.
 fn summed(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
     let mut out = vec![[0.0; 6]; m.links.len()];
     for x in loads {
@@ -98,8 +101,8 @@ fn summed(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
     out
 }
 
-/// Weights, forces and moments from outside, by link, about the geometry's middle, while the first drive is `drive` away from the pose
-/// of the file.
+/// Returns weights, external forces and moments, by link, about the geometry's middle, if the first drive is `drive`
+/// away from the pose of the file.
 #[must_use]
 pub fn link_loads(
     m: &Mechanism,
@@ -113,26 +116,27 @@ pub fn link_loads(
     summed(m, geometry, &all)
 }
 
-/// What a mechanism bears in a pose under the loads of the file, inertia forces of the stated drive speeds included.
+/// Loads on a mechanism in a pose: those of the file, including inertia forces of the stated drive speeds.
 #[derive(Debug)]
 pub(crate) struct Borne {
     /// The pose in numbers.
     pub(crate) geometry: Geometry,
-    /// One by one.
+    /// The individual loads.
     pub(crate) loads: Vec<LinkLoad>,
-    /// How the links with mass move.
+    /// Motion of the links with mass.
     pub(crate) masses: Vec<MovingMass>,
     /// Power of the loads `[W]`.
     pub(crate) power: f64,
-    /// By link.
+    /// Sums by link.
     pub(super) sums: Vec<Six>,
 }
 
 impl Borne {
-    /// The loads at a pose, the first drive `drive` away from the pose of the file.
+    /// Computes the loads at a pose, with the first drive `drive` away from the pose of the file.
     ///
     /// # Errors
-    /// Where the drives cannot go at the stated speeds, and where a link that states its inertia for a plane turns in space.
+    /// Returns an error if the drives cannot move at the stated speeds, or if a link that states its inertia for a
+    /// plane turns in space.
     pub(crate) fn new(
         m: &Mechanism,
         state: StateId,

@@ -1,4 +1,4 @@
-//! What joints pass on, and what it is worth.
+//! Joint reactions and their reliability.
 
 use crate::model::joint_type::{CoupledFreedom, Freedom};
 use crate::model::mechanism::{JointId, Mechanism};
@@ -9,15 +9,15 @@ use crate::statics::reactions::geometry::{Geometry, Six, about, dot, power};
 use crate::statics::{greatest, without};
 use serde::{Serialize, Serializer};
 
-/// What a joint passes from its first link to its second, without what couplings pass there.
+/// The wrench of a joint from its first link to its second, without the parts of couplings that bypass it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointReaction {
     /// The joint.
     #[serde(skip)]
     pub joint: JointId,
-    /// Where it is now `[m]`, global axes.
+    /// Its current position `[m]`, global axes.
     pub point: [f64; 3],
-    /// Unit vectors x, y, z of its frame now.
+    /// Current unit vectors x, y, z of its frame.
     #[serde(serialize_with = "named")]
     pub axes: [[f64; 3]; 3],
     /// The force in its own frame `[N]`.
@@ -27,7 +27,7 @@ pub struct JointReaction {
     /// Force `[N]` or torque `[N·m]` of its drive, along the freedom it holds; part of force and moment.
     #[serde(skip)]
     pub effort: Option<(Freedom, f64)>,
-    /// Forces of this size are rounding `[N]`, and moments of this size times that of the mechanism `[m]`.
+    /// Size up to which forces are rounding errors `[N]`; for moments this times the size of the mechanism `[m]`.
     #[serde(skip)]
     pub rounding: [f64; 2],
 }
@@ -36,29 +36,29 @@ fn named<S: Serializer>(axes: &[[f64; 3]; 3], serializer: S) -> Result<S::Ok, S:
     serializer.collect_map(["x", "y", "z"].into_iter().zip(axes))
 }
 
-/// What a coupling passes on, beside the reactions of the joints.
+/// The reaction of a coupling, in addition to the reactions of the joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CouplingReaction {
-    /// The freedoms it ties.
+    /// The coupled freedoms.
     pub ends: [CoupledFreedom; 2],
-    /// What each joint's second link gets of it along the freedom: torque `[N·m]` of a turn, force `[N]` of a slide. The teeth
-    /// of gears push the link on the other side of the joint by as much the other way.
+    /// Its effort on each joint's second link along the freedom: torque `[N·m]` of a turn, force `[N]` of a slide. The
+    /// teeth of gears exert the opposite on the link on the other side of the joint.
     pub efforts: [f64; 2],
-    /// Teeth, where the file says that there are any and where, and the joints bear what they push.
+    /// The teeth, if the file states that there are any and where, and if the joints carry their forces.
     pub teeth: Option<ToothForce>,
 }
 
 /// The force of teeth, along the pitch circles.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ToothForce {
-    /// Where they touch now `[m]`, global axes.
+    /// Current contact point `[m]`, global axes.
     pub point: [f64; 3],
-    /// On the gear or rack of the first joint, global axes `[N]`.
+    /// Force on the gear or rack of the first joint, global axes `[N]`.
     pub force: [f64; 3],
 }
 
 impl ToothForce {
-    /// Magnitude of the force `[N]`.
+    /// Returns the magnitude of the force `[N]`.
     #[must_use]
     pub fn size(&self) -> f64 {
         dot(self.force, self.force).sqrt()
@@ -66,13 +66,13 @@ impl ToothForce {
 }
 
 impl JointReaction {
-    /// Magnitude of the force `[N]`.
+    /// Returns the magnitude of the force `[N]`.
     #[must_use]
     pub fn force_size(&self) -> f64 {
         dot(self.force, self.force).sqrt()
     }
 
-    /// Magnitude of the moment `[N·m]`.
+    /// Returns the magnitude of the moment `[N·m]`.
     #[must_use]
     pub fn moment_size(&self) -> f64 {
         dot(self.moment, self.moment).sqrt()
@@ -82,80 +82,81 @@ impl JointReaction {
         [0, 1, 2].map(|i| without(rounding, (0..3).map(|k| own[k] * self.axes[k][i]).sum()))
     }
 
-    /// The force in global axes `[N]`.
+    /// Returns the force in global axes `[N]`.
     #[must_use]
     pub fn global_force(&self) -> [f64; 3] {
         self.global(self.force, self.rounding[0])
     }
 
-    /// The moment about the joint's point in global axes `[N·m]`.
+    /// Returns the moment about the joint's point in global axes `[N·m]`.
     #[must_use]
     pub fn global_moment(&self) -> [f64; 3] {
         self.global(self.moment, self.rounding[1])
     }
 }
 
-/// A condition above this makes a mechanism nearly singular: figures good to few digits, reactions large.
+/// Condition number above which a mechanism is nearly singular: figures have few correct digits, and reactions are
+/// large.
 pub const NEARLY_SINGULAR: f64 = 1e4;
 
-/// Whether reactions are the only ones.
+/// Uniqueness of reactions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Uniqueness {
-    /// They are: the mechanism is determinate.
+    /// The reactions are unique, because the mechanism is determinate.
     Unique,
-    /// Those of minimum norm in a family.
+    /// The reactions are those of minimum norm in a family.
     MinimumNorm,
-    /// Those of minimum norm among the ones of a family in which contacts only push.
+    /// The reactions are those of minimum norm in a family, among those in which contacts only push.
     Pushing,
 }
 
 /// Reactions of a mechanism.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// By joint of the state, in file order.
+    /// The reactions by joint of the state, in file order.
     pub reactions: Vec<JointReaction>,
-    /// By coupling of the state, in file order.
+    /// The reactions by coupling of the state, in file order.
     pub couplings: Vec<CouplingReaction>,
-    /// Whether they are the only ones.
+    /// Uniqueness of the reactions.
     pub choice: Uniqueness,
-    /// Reactions that load nothing from outside, one set for each redundant constraint (with drives held), greatest
-    /// force, or moment by size, 1 N.
+    /// Reactions without external loads, one set for each redundant constraint (with drives held), scaled to a largest
+    /// force, or moment divided by size, of 1 N.
     pub self_stresses: Vec<Vec<JointReaction>>,
-    /// What couplings pass of each of these.
+    /// The reactions of couplings in each of these.
     pub coupling_stresses: Vec<Vec<CouplingReaction>>,
-    /// By coupling, whether these change what it passes.
+    /// For each coupling, whether these change its reaction.
     pub couplings_open: Vec<bool>,
-    /// By joint, the components that these change, forces along x, y, z of its frame and moments about them: all others are
-    /// the same in every reaction of the family.
+    /// For each joint, the components that these change: forces along x, y, z of its frame and moments about them. All
+    /// others are the same in every reaction of the family.
     pub open: Vec<[bool; 6]>,
-    /// The reactions that fit the stated stiffness and misalignments, where stiffness is stated and it matters.
+    /// The reactions compatible with the stated stiffness and misalignments, if stiffness is stated and it matters.
     pub elastic: Option<Vec<JointReaction>>,
-    /// What couplings, which are rigid, pass of those.
+    /// The reactions of the rigid couplings in these.
     pub elastic_couplings: Option<Vec<CouplingReaction>>,
-    /// What is asked of the contacts with objects.
+    /// The requirements on the contacts with clamped parts.
     pub contacts: Vec<ContactForce>,
-    /// Freedoms left with the drives held; the loads do no work on them.
+    /// Number of freedoms left with the drives held; the loads do no work on them.
     pub undriven: usize,
-    /// Ratio of the greatest and the smallest singular value kept.
+    /// Ratio of the largest to the smallest singular value kept.
     pub condition: f64,
-    /// Greatest force, or moment by size, left over on a link, over the greatest load.
+    /// Largest residual force, or moment divided by size, on a link, over the largest load.
     pub residual: f64,
-    /// The size that moments are divided by `[m]`.
+    /// The size by which moments are divided `[m]`.
     pub size: f64,
 }
 
 impl Solution {
-    /// Whether small errors of the geometry change the reactions much.
+    /// Returns true if small errors of the geometry change the reactions strongly.
     #[must_use]
     pub fn nearly_singular(&self) -> bool {
         self.condition > NEARLY_SINGULAR
     }
 }
 
-/// Below this part of a self-stress's greatest force a component has none of it.
+/// Fraction of a self-stress's largest force below which a component counts as zero.
 pub(crate) const NO_STRESS: f64 = 1e-9;
 
-/// The components of joints that some self-stress has, moments divided by the size.
+/// Returns the components of joints that are nonzero in some self-stress, with moments divided by the size.
 pub(crate) fn open(joints: usize, size: f64, stresses: &[Vec<JointReaction>]) -> Vec<[bool; 6]> {
     let mut out = vec![[false; 6]; joints];
     for stress in stresses {
@@ -169,7 +170,7 @@ pub(crate) fn open(joints: usize, size: f64, stresses: &[Vec<JointReaction>]) ->
     out
 }
 
-/// The couplings that some self-stress loads.
+/// Returns the couplings that some self-stress loads.
 pub(crate) fn open_couplings<'x>(
     couplings: usize,
     stresses: impl Iterator<Item = &'x [f64]>,
@@ -183,7 +184,7 @@ pub(crate) fn open_couplings<'x>(
     out
 }
 
-/// Returns the greatest force, or moment by size, that is left over on a link `[N]`.
+/// Returns the largest residual force, or moment divided by size, on a link `[N]`.
 pub(crate) fn left_over(
     m: &Mechanism,
     geometry: &Geometry,
@@ -202,7 +203,8 @@ pub(crate) fn left_over(
     greatest(sums.iter().flatten())
 }
 
-/// Wrenches by joint as reactions in the joints' own frames, in SI; what is at most `rounding` `[N]`, moments by the size, is 0.
+/// Converts wrenches by joint to reactions in the joints' own frames, in SI. Values of at most `rounding` `[N]`, with
+/// moments divided by the size, become 0.
 pub(crate) fn present(
     m: &Mechanism,
     geometry: &Geometry,
@@ -239,7 +241,7 @@ pub(crate) fn present(
     each.collect()
 }
 
-/// Returns what couplings pass for their unknowns, in SI; an unknown that is at most `rounding` is 0.
+/// Returns the reactions of couplings for their unknowns, in SI. An unknown of at most `rounding` becomes 0.
 pub(crate) fn passed_by_couplings(
     geometry: &Geometry,
     unknowns: &[f64],
@@ -253,7 +255,7 @@ pub(crate) fn passed_by_couplings(
             } else {
                 geometry.size
             };
-            // From 0, so that 0 has no sign.
+            // Subtracting from 0 avoids a signed zero.
             0.0 - c.entries[n] * x * unit
         };
         CouplingReaction {

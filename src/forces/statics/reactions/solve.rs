@@ -15,7 +15,7 @@ use crate::statics::reactions::unilateral::{TOLERANCE, pushing};
 use crate::statics::reactions::unsolved::Unsolved;
 use crate::statics::{greatest, over_load, rounding};
 
-/// Work on undriven motions below this fraction of the loads is none.
+/// Fraction of the loads below which work on undriven motions counts as zero.
 const NO_WORK: f64 = 1e-8;
 
 /// Solves for reactions.
@@ -23,10 +23,10 @@ const NO_WORK: f64 = 1e-8;
 pub struct Reactions;
 
 impl Borne {
-    /// The reactions to them, with contacts as asked for.
+    /// Returns the reactions to these loads, with the requested treatment of contacts.
     ///
     /// # Errors
-    /// [`Unsolved`].
+    /// Returns an [`Unsolved`].
     pub(crate) fn solve(
         &self,
         m: &Mechanism,
@@ -38,10 +38,10 @@ impl Borne {
 }
 
 impl Reactions {
-    /// Reactions at the pose of the file.
+    /// Returns the reactions at the pose of the file.
     ///
     /// # Errors
-    /// [`Unsolved`].
+    /// Returns an [`Unsolved`].
     ///
     /// # Complexity
     /// O((6k)²·f) for k contours and f freedoms.
@@ -52,11 +52,11 @@ impl Reactions {
         Self::at(m, state, loads, &pose, 0.0, &drives)
     }
 
-    /// Reactions at any pose, the first drive `drive` `[rad]` or file units away from the pose of the file, with the
-    /// freedoms the drives hold.
+    /// Returns the reactions at any pose, with the first drive `drive` `[rad]` or file units away from the pose of the
+    /// file, and with the freedoms that the drives hold.
     ///
     /// # Errors
-    /// [`Unsolved`].
+    /// Returns an [`Unsolved`].
     pub fn at(
         m: &Mechanism,
         state: StateId,
@@ -70,7 +70,7 @@ impl Reactions {
         Self::bearing(m, loads, &geometry, &of_links, drives, Contacts::AsJoints)
     }
 
-    /// Reactions to one wrench a link.
+    /// Returns the reactions to one wrench per link.
     pub(crate) fn bearing(
         m: &Mechanism,
         loads: &Loads,
@@ -96,18 +96,18 @@ impl Reactions {
         equations::least_norm(geometry, &mut of, &stresses);
         let faces = match of_contacts {
             Contacts::Pushing => contacts(m, geometry)?,
-            // Where the side is open, nothing can be said of pulling.
+            // If the side is unknown, pulling cannot be detected.
             Contacts::AsJoints => contacts(m, geometry).unwrap_or_default(),
         };
         if of_contacts == Contacts::Pushing {
             pushing(geometry, &faces, &mut of, &stresses)?;
         }
-        // Elastic joints are solved with contacts as joints alone.
+        // Elastic joints are only solved with contacts as joints.
         let elastic = match of_contacts {
             Contacts::AsJoints => equations::elastic(m, geometry, loads, rigid, &stresses),
             Contacts::Pushing => None,
         };
-        // Wrenches begin as those of the loads along the tree, and so are rounded beside these.
+        // Wrenches start as those of the loads along the tree, so their rounding is relative to these.
         let rounding = |t: &Transmitted, beside: f64| {
             let left_over = left_over(m, geometry, &t.joints, loads_of_links);
             let all = greatest(t.joints.iter().flatten().chain(&t.couplings));
@@ -153,7 +153,8 @@ impl Reactions {
     }
 }
 
-/// The loaded link that the motion carries along most, else the fastest, by the work left in the equations.
+/// Returns the loaded link that the motion moves most, or otherwise the fastest one, by the remaining work in the
+/// equations.
 fn carried_most(
     m: &Mechanism,
     geometry: &Geometry,
@@ -171,7 +172,7 @@ fn carried_most(
     most.map_or_else(String::new, |l| m.links[l].id.clone())
 }
 
-/// How the reactions are chosen where there are self-stresses, which leave them open.
+/// Returns how the reactions are chosen if self-stresses leave them open.
 fn choice(of_contacts: Contacts, is_unique: bool) -> Uniqueness {
     match of_contacts {
         _ if is_unique => Uniqueness::Unique,

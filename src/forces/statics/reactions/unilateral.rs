@@ -1,8 +1,8 @@
-//! Reactions in which contacts only push: of all that are in equilibrium, those of minimum norm within the contacts' cones.
+//! Reactions in which contacts only push: of all in equilibrium, those of minimum norm within the contacts' cones.
 //!
-//! The reactions are a particular solution plus any multiples of the self-stresses, so equilibrium is kept whatever the
-//! multiples. They are found by a second-order cone programme: a normal force is not negative, friction and the moment about the
-//! normal lie in one elliptic cone, and that moment and tipping share the face (`contact`).
+//! The reactions are a particular solution plus any multiples of the self-stresses, so equilibrium holds for all
+//! multiples. They are found by a second-order cone program. A normal force is not negative, friction and the moment
+//! about the normal lie in one elliptic cone, and that moment and tipping share the face (`contact`).
 
 use crate::statics::cone_programme::{ConeProgramme, Row};
 use crate::statics::reactions::contact::{Contact, Touch};
@@ -12,11 +12,11 @@ use crate::statics::reactions::unsolved::Unsolved;
 use clarabel::solver::SolverStatus;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT};
 
-/// Cones and norm are solved to this fraction of the greatest reaction.
+/// Accuracy of cones and norm, as a fraction of the largest reaction.
 pub(crate) const TOLERANCE: f64 = 1e-7;
 
-/// The cones of the contacts. Each value is that of the particular solution, the first of `all`, plus Σ xᵢ times that of
-/// self-stress i.
+/// Returns the cones of the contacts. Each value is that of the particular solution, the first of `all`, plus Σ xᵢ
+/// times that of self-stress i.
 fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgramme {
     let mut out = ConeProgramme::default();
     for contact in contacts {
@@ -39,7 +39,7 @@ fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgr
             out.within(SecondOrderConeT);
         }
         if let Some(radius) = contact.radius {
-            // What turns either way takes its share of the face.
+            // A moment about the normal, in either direction, uses its share of the face.
             let share = match (contact.friction, arm) {
                 (Some(friction), Some(arm)) => radius / (friction * arm),
                 _ => 0.0,
@@ -59,13 +59,14 @@ fn cones(geometry: &Geometry, contacts: &[Contact], all: &[&[Six]]) -> ConeProgr
     out
 }
 
-/// Changes wrenches in equilibrium by self-stresses to those of minimum norm in which contacts do what faces can.
+/// Adds self-stresses to wrenches in equilibrium to reach those of minimum norm in which contacts are within the limits
+/// of their faces.
 ///
 /// # Guarantee
-/// Equilibrium is that of the wrenches given, to rounding; cones and norm are to [`TOLERANCE`] of the greatest reaction.
+/// Equilibrium is that of the given wrenches, to rounding; cones and norm are to [`TOLERANCE`] of the largest reaction.
 ///
 /// # Errors
-/// [`Unsolved::Loose`] where there are none: the object slips, lifts off or tilts.
+/// Returns [`Unsolved::Loose`] if there are none: the clamped part slips, lifts off or tilts.
 pub(crate) fn pushing(
     geometry: &Geometry,
     contacts: &[Contact],
@@ -77,7 +78,7 @@ pub(crate) fn pushing(
         let mut each = contacts.iter().map(|c| c.force(geometry, &own).touch);
         each.all(|t| matches!(t, Touch::Pushes | Touch::Idle))
     };
-    // That of minimum norm is the answer where its contacts push.
+    // The solution of minimum norm is the result if its contacts push.
     if allowed(of) {
         return Ok(());
     }
@@ -117,7 +118,7 @@ pub(crate) fn pushing(
     for (x, stress) in solution.x.iter().zip(stresses) {
         of.add(x * scale, stress);
     }
-    // What the solver calls solved must be so by the measure that contacts are judged with.
+    // The solver's solution must also satisfy the criterion by which contacts are judged.
     if allowed(of) {
         Ok(())
     } else {

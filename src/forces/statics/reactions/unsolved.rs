@@ -1,25 +1,25 @@
-//! Why there are no reactions.
+//! Reasons why there are no reactions.
 
 use crate::geom::exact::ExactError;
 use thiserror::Error;
 
-/// Why there are no reactions.
+/// Reason why there are no reactions.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Unsolved {
-    /// The geometry has no numbers.
+    /// The geometry has no numerical value.
     #[error(transparent)]
     Exact(#[from] ExactError),
     /// The singular values did not converge.
     #[error("the singular values did not converge; check coordinates and loads for extreme values")]
     NoConvergence,
-    /// The drives cannot go at their speeds.
+    /// The drives cannot move at their speeds.
     #[error(
         "the drives cannot go at the stated speeds in this pose, a dead point; state another workload.drive_speed, or look at \
          other poses with --stroke"
     )]
     Stuck,
-    /// An inertia about a plane's normal where there is no plane.
+    /// An inertia about a plane's normal is stated, but there is no plane.
     #[error(
         "link {link} states one number for its inertia, which is about the normal of a plane, and the mechanism moves in \
          space; give 3 about the axes or 6 of a tensor"
@@ -28,7 +28,7 @@ pub enum Unsolved {
         /// The link.
         link: String,
     },
-    /// A face whose side cannot be told.
+    /// The side of a face cannot be determined.
     #[error(
         "contact {joint} lies in one plane with all that touches {object}, so which way it pushes is open; give {object} a mass \
          and centre"
@@ -36,7 +36,7 @@ pub enum Unsolved {
     Side {
         /// The contact.
         joint: String,
-        /// The object.
+        /// The clamped part.
         object: String,
     },
     /// Contacts that only push cannot be in equilibrium.
@@ -45,7 +45,7 @@ pub enum Unsolved {
          lifts off or tilts; drive the jaws harder, or state more friction or larger faces under [[workload.contact]]"
     )]
     Loose,
-    /// The cone programme gave no answer.
+    /// The cone program has no solution.
     #[error("the programme of contacts that only push ended with {0}; no answer")]
     Programme(String),
     /// Loads do work on a motion that no drive holds.
@@ -56,7 +56,7 @@ pub enum Unsolved {
     Moves {
         /// The link that would move fastest.
         link: String,
-        /// Freedoms left with the drives locked.
+        /// Number of freedoms left with the drives locked.
         mobility: usize,
     },
 }

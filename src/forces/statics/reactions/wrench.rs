@@ -7,13 +7,13 @@ use crate::model::mechanism::JointId;
 /// A twist or a wrench.
 pub type Six = [f64; 6];
 
-/// Power of a wrench on a twist.
+/// Returns the power of a wrench on a twist.
 #[must_use]
 pub fn power(a: &Six, b: &Six) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The wrench (m; f) of a force at a point, with a moment besides.
+/// Returns the wrench (m; f) of a force at a point, with an additional moment.
 #[must_use]
 pub fn wrench(point: [f64; 3], force: [f64; 3], moment: [f64; 3]) -> Six {
     let m = cross(point, force);
@@ -27,7 +27,7 @@ pub fn wrench(point: [f64; 3], force: [f64; 3], moment: [f64; 3]) -> Six {
     ]
 }
 
-/// A wrench about the middle taken about another point.
+/// Converts a wrench about the middle to one about another point.
 #[must_use]
 pub fn about(w: &Six, point: [f64; 3]) -> Six {
     let f = [w[3], w[4], w[5]];
@@ -35,7 +35,7 @@ pub fn about(w: &Six, point: [f64; 3]) -> Six {
     [w[0] - m[0], w[1] - m[1], w[2] - m[2], f[0], f[1], f[2]]
 }
 
-/// The part of a wrench that a model can carry: all of it, or what is in the plane that three wrenches span.
+/// Returns the part of a wrench that a model can carry: all of it, or the part in the plane spanned by three wrenches.
 pub(crate) fn within(basis: &[Six], w: &Six) -> Six {
     if basis.len() == 6 {
         return *w;
@@ -57,16 +57,16 @@ pub struct FreedomColumn {
     pub joint: JointId,
     /// The freedom in the joint's frame.
     pub freedom: Freedom,
-    /// Unit turn or unit shift of the joint's second link against its first.
+    /// Unit rotation or translation of the joint's second link relative to its first.
     pub twist: Six,
 }
 
-/// The freedoms of a pose and where they are, lengths in a size.
+/// The freedoms of a pose and their positions, with lengths in a size.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PosedFreedoms<'g> {
     /// The freedoms, grouped by joint.
     pub(crate) columns: &'g [FreedomColumn],
-    /// By joint: its point.
+    /// For each joint, its point.
     pub(crate) points: &'g [[f64; 3]],
     /// Orthonormal wrenches: six, or the three of a plane.
     pub(crate) basis: &'g [Six],
