@@ -1,8 +1,9 @@
-//! What a two-lever gripper can hold: its arms, contacts and drive moments, what a grip does to its mechanism, and how firmly the
-//! contacts of any clamped mechanism hold the part.
+//! Holding capacity of a two-lever gripper: its arms, contacts and drive moments, and the loads of a grip on its
+//! mechanism. Also how firmly the contacts of any clamped mechanism hold the part.
 //!
-//! [`grip`] studies a gripper over its diameters with its drive: what it holds, and what that asks of the one drive of both levers;
-//! [`clamped::clamped`] solves for the joints of a mechanism round a part; [`force_closure::closure`] asks what its contacts resist.
+//! [`grip`] studies a gripper over its diameters with its drive: its holding capacity, and the required effort of the
+//! one drive of both levers. [`clamped::clamped`] solves for the joints of a mechanism around a part.
+//! [`force_closure::closure`] determines the loads that its contacts resist.
 
 pub mod arm_curves;
 pub mod clamped;
@@ -28,20 +29,20 @@ use crate::motion::pose::Pose;
 use crate::statics::transmission::{Rates, TransmissionError, rates};
 use thiserror::Error;
 
-/// Why a gripper cannot be studied.
+/// Reason why a gripper cannot be studied.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GripError {
-    /// Its lever.
+    /// The lever is invalid.
     #[error(transparent)]
     Lever(#[from] LeverError),
-    /// Its mechanism round the part.
+    /// The mechanism around the part is invalid.
     #[error(transparent)]
     Jaw(#[from] JawError),
-    /// The way from its drive to the levers.
+    /// The transmission from the drive to the levers is invalid.
     #[error(transparent)]
     Transmission(#[from] TransmissionError),
-    /// The geometry of its mechanism.
+    /// The geometry of the mechanism has no value.
     #[error(transparent)]
     Exact(#[from] ExactError),
 }
@@ -49,13 +50,14 @@ pub enum GripError {
 /// A gripper over its diameters.
 #[derive(Debug, Clone)]
 pub struct Grip {
-    /// What it holds.
+    /// Its holding capacity.
     pub study: Study,
-    /// How the drive works on the levers, by row of the study; empty where that is not known.
+    /// Effect of the drive on the levers, by row of the study. Empty if unknown.
     pub transmission: Vec<Rates>,
 }
 
-/// Force `[N]`, or moment `[N·m]` of a turning drive, that one drive of both levers takes; `None` where each has its own.
+/// Returns the force `[N]`, or the moment `[N·m]` of a rotary drive, required from one drive of both levers. Returns
+/// `None` if each lever has its own drive.
 #[must_use]
 pub fn effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
     let each = h.moments.iter().zip(&drive.rates);
@@ -63,7 +65,7 @@ pub fn effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
     (levers != LeverDrive::Independent).then_some(sum.max(0.0))
 }
 
-/// Studies a gripper, with the mechanism it is part of where there is one.
+/// Analyses a gripper, with the mechanism it is part of if there is one.
 ///
 /// # Units
 /// SI, radians.
@@ -72,7 +74,7 @@ pub fn effort(levers: LeverDrive, h: &Holding, drive: &Rates) -> Option<f64> {
 /// As [`study`].
 ///
 /// # Errors
-/// Figures out of range, or a mechanism that does not agree with them.
+/// Returns an error if figures are out of range, or if a mechanism does not agree with them.
 ///
 /// # Examples
 /// ```
@@ -99,7 +101,7 @@ pub fn grip(spec: &GripSpec, mechanism: Option<&Mechanism>) -> Result<Grip, Grip
             let states = spec.contacts.and_then(|c| m.joints[c[0]].states.as_ref());
             let state = states.and_then(|s| s.first());
             let gripping = match state.map(|&s| Gripping::of_study(m, s, study.clone())) {
-                // Without contacts nobody knows which way the levers turn.
+                // Without contacts, the direction in which the levers turn is unknown.
                 None | Some(Ok(None) | Err(JawError::Nominal(_))) => None,
                 Some(other) => other?,
             };

@@ -1,33 +1,33 @@
-//! The arms of a gripper's levers while one of their figures is varied and the others stay: the figures of the paper, for any
-//! gripper.
+//! The arms of a gripper's levers as functions of one of their parameters, with the others constant: the figures of the
+//! paper, for any gripper.
 
 use crate::grip::clamping::gripper;
 use crate::grip::lever_arm::{Arms, Lever};
 use crate::model::grip::GripSpec;
 
-/// Points of a curve.
+/// Number of points of a curve.
 pub const POINTS: u32 = 121;
 
-/// What is varied.
+/// The parameter that is varied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Varied {
-    /// L, from 0.4 to 1.6 of that stated: fig. 2.
+    /// L, from 0.4 to 1.6 of the stated value: fig. 2.
     LeverLength,
-    /// α, from 60° to 140° and to that stated: fig. 4.
+    /// α, from 60° to 140°, extended to the stated value: fig. 4.
     PrismAngle,
-    /// γ, from 0° to 40° and to that stated: fig. 5.
+    /// γ, from 0° to 40°, extended to the stated value: fig. 5.
     MountingAngle,
 }
 
 impl Varied {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Varied; 3] = [
         Varied::LeverLength,
         Varied::PrismAngle,
         Varied::MountingAngle,
     ];
 
-    /// From where to where. `[m]` or `[rad]`
+    /// Returns the range. `[m]` or `[rad]`
     fn range(self, spec: &GripSpec) -> [f64; 2] {
         let round = |from: f64, to: f64, own: f64| {
             let (from, to) = (from.to_radians(), to.to_radians());
@@ -41,10 +41,10 @@ impl Varied {
     }
 }
 
-/// What is varied `[m]` or `[rad]`, with the arms where such a gripper can hold the part.
+/// Value of the parameter `[m]` or `[rad]`, with the arms if such a gripper can hold the part.
 pub type Point = (f64, Option<Arms>);
 
-/// The arms on a part of a diameter, [`POINTS`] of them evenly over the range.
+/// Returns the arms on a part of a diameter, at [`POINTS`] equally spaced values.
 ///
 /// # Units
 /// `[m]`, `[rad]`.

@@ -1,4 +1,5 @@
-//! Joint reactions of a mechanism that grips: the part cut free, and the contact forces of its hardest case on the jaws.
+//! Joint reactions of a gripping mechanism: the part is cut free, and the contact forces of its worst case act on the
+//! jaws.
 
 use crate::geom::exact::ExactError;
 use crate::grip::clamping::{DiameterRow, HoldVerdict};
@@ -15,38 +16,39 @@ use crate::statics::solve::{SolvedReactions, is_for_space};
 use crate::statics::transmission::rates;
 use thiserror::Error;
 
-/// Why a clamped mechanism has no reactions.
+/// Reason why a clamped mechanism has no reactions.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ClampedError {
-    /// Its levers do not fit the part.
+    /// The levers do not fit the part.
     #[error(transparent)]
     Jaw(#[from] JawError),
-    /// In the plane.
+    /// The planar statics have no solution.
     #[error(transparent)]
     Planar(#[from] PlanarStaticsError),
-    /// In space.
+    /// The spatial statics have no solution.
     #[error(transparent)]
     Spatial(#[from] Unsolved),
-    /// The geometry has no numbers.
+    /// The geometry has no numerical value.
     #[error(transparent)]
     Exact(#[from] ExactError),
 }
 
-/// A mechanism round a part.
+/// A mechanism around a part.
 #[derive(Debug, Clone)]
 pub struct Clamped {
     /// The mechanism with the part's forces among its loads.
     pub mechanism: Mechanism,
     /// Its pose.
     pub fit: Fit,
-    /// Force `[N]`, or moment `[N·m]`, that the grip asks of one drive of both levers, and whether that drive slides.
+    /// Force `[N]`, or moment `[N·m]`, that the grip requires of one drive of both levers, and whether that drive
+    /// slides.
     pub effort: Option<(f64, bool)>,
     /// The reactions.
     pub found: SolvedReactions,
 }
 
-/// What the grip asks of one drive of both levers in a pose, where the mechanism has one.
+/// Returns the effort that the grip requires of one drive of both levers in a pose, if the mechanism has one.
 fn asked(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
     let spec = g.mechanism.loads.grip.as_ref()?;
     let (Transmission::Joints(joints), HoldVerdict::Held(h)) =
@@ -58,11 +60,11 @@ fn asked(g: &Gripping, row: &DiameterRow, pose: &Pose) -> Option<(f64, bool)> {
     Some((effort(spec.load.as_ref()?.levers, h, &t)?, t.slides))
 }
 
-/// Reactions round the part of a row; `None` where it is not held. With one drive those of the plane where they determine
-/// the mechanism, unless all six components are asked for.
+/// Returns the reactions around the part of a row, or `None` if it is not held. With one drive, planar statics are used
+/// if they determine the mechanism, unless all six components are requested.
 ///
 /// # Errors
-/// [`ClampedError`].
+/// Returns a [`ClampedError`].
 pub fn clamped(
     g: &Gripping,
     row: &DiameterRow,

@@ -1,4 +1,4 @@
-//! A part between the contacts of a mechanism whose drives stand still, ready for questions of closure.
+//! A part between the contacts of a mechanism with its drives at rest, prepared for the analysis of closure.
 
 use crate::geom::vector::{add, length, scale, sub};
 use crate::grip::faces::{JawFace, turned_about};
@@ -14,11 +14,11 @@ use chacha20::rand_core::Rng;
 use ozols_dense::{Matrix, svd};
 use thiserror::Error;
 
-/// Why there is no clamped part to ask about.
+/// Reason why there is no clamped part to analyse.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PartError {
-    /// No state has contacts with an object.
+    /// No state has contacts with a clamped part.
     #[error(
         "state {state} of {name} has no part between contacts: give a link of role = \"object\", and joints of type fixed, \
          planar, cylinder-on-plane or sphere-on-plane to it"
@@ -29,27 +29,27 @@ pub enum PartError {
         /// The state.
         state: String,
     },
-    /// An object that is joined otherwise.
+    /// A clamped part has another kind of joint.
     #[error(
         "{object} is held by joint {joint}, which is not a face; name faces only, or take the role \"object\" off the link"
     )]
     Joined {
-        /// The object.
+        /// The clamped part.
         object: String,
         /// The joint.
         joint: String,
     },
-    /// The mechanism.
+    /// The mechanism has no solution.
     #[error(transparent)]
     Unsolved(#[from] Unsolved),
 }
 
-/// A motion of the mechanism with its contacts let go.
+/// A motion of the mechanism with its contacts released.
 #[derive(Debug, Clone)]
 pub struct LooseMotion {
     /// Twist of the part, about the geometry's middle.
     pub part: Six,
-    /// By face: twist of the part against the jaw.
+    /// For each face, the twist of the part relative to the jaw.
     pub against: Vec<Six>,
 }
 
@@ -58,27 +58,27 @@ pub struct LooseMotion {
 pub struct ClampedPart {
     /// The state.
     pub state: StateId,
-    /// The object.
+    /// The clamped part.
     pub object: LinkId,
     /// The pose of the file.
     pub geometry: Geometry,
     /// The contacts.
     pub faces: Vec<JawFace>,
-    /// Independent motions of part and jaws, drives held and contacts let go.
+    /// Independent motions of part and jaws, with drives held and contacts released.
     pub motions: Vec<LooseMotion>,
     /// Mean of the contacts' points.
     pub middle: [f64; 3],
-    /// Root mean square distance of the contacts' points from it: moments count by this.
+    /// Root mean square distance of the contacts' points from the middle, by which moments are divided.
     pub size: f64,
-    /// Unit loads that span all, (moment; force): six, or three in a plane.
+    /// Unit loads that span all loads, (moment; force): six, or three in a plane.
     pub axes: Vec<Six>,
 }
 
 impl ClampedPart {
-    /// The part of a state at the pose of the file.
+    /// Returns the clamped part of a state at the pose of the file.
     ///
     /// # Errors
-    /// [`PartError`].
+    /// Returns a [`PartError`].
     ///
     /// # Complexity
     /// O((6k)²·f) for k contours and f freedoms.
@@ -119,21 +119,22 @@ impl ClampedPart {
             axes: geometry.basis.clone(),
             motions,
             middle,
-            // A part on one contact has no size of its own.
+            // A part with one contact has no size.
             size: if spread > TOLERANCE { spread } else { 1.0 },
             faces,
             geometry,
         })
     }
 
-    /// The faces without friction.
+    /// Returns the faces without friction.
     #[must_use]
     pub fn smooth(&self) -> Vec<JawFace> {
         self.faces.iter().map(|f| f.smooth()).collect()
     }
 
-    /// The same with each contact's point anywhere within `tolerance` of where it is, evenly, and each face tipped about a line in
-    /// it of any direction, by so much that its rim is out by no more (that of the part's size where it states none).
+    /// Returns the part with inaccurate contacts. Each point is distributed uniformly within `tolerance` of its
+    /// position. Each face is tipped about a random line in it by an angle that moves its rim by at most as much. For a
+    /// face without a stated size, the size of the part is used.
     #[must_use]
     pub fn out_of_true(&self, tolerance: f64, random: &mut ChaCha8Rng) -> ClampedPart {
         let mut out = self.clone();
@@ -161,7 +162,7 @@ impl ClampedPart {
     }
 }
 
-/// Motions with drives held and every contact let go in all directions.
+/// Returns the motions with drives held and every contact released in all directions.
 fn motions(
     m: &Mechanism,
     geometry: &Geometry,
@@ -178,7 +179,7 @@ fn motions(
         free.columns
             .extend(geometry.basis.iter().map(|twist| FreedomColumn {
                 joint: face.joint,
-                // No freedom of the joint: let go, it has them all.
+                // A released contact has no joint freedom, because it has all of them.
                 freedom: Freedom::Screw,
                 twist: *twist,
             }));
@@ -204,8 +205,8 @@ fn motions(
     felt(&all.collect::<Vec<_>>())
 }
 
-/// Independent motions of part and jaws among those of the whole, each as the part's twist and those against the jaws: idle rods
-/// may turn without either.
+/// Returns the independent motions of part and jaws among those of the whole mechanism, each as the part's twist and
+/// its twists relative to the jaws. Idle rods may turn without moving either.
 fn felt(all: &[Vec<f64>]) -> Result<Vec<LooseMotion>, Unsolved> {
     let width = all.first().map_or(0, Vec::len);
     let a = Matrix::from_fn(all.len(), width, |r, c| all[r][c]);

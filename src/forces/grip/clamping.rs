@@ -1,4 +1,4 @@
-//! What a gripper can hold over a range of diameters and motions, and the drive moment that takes.
+//! The loads that a gripper can hold over a range of diameters and motions, and the required drive moment.
 
 use crate::format::decimals;
 use crate::geom::vector::{length, unit};
@@ -10,13 +10,13 @@ use crate::grip::lever_arm::{Arms, Lever, LeverError};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, Pivots, Toward};
 use itertools::Itertools;
 
-/// Directions from which loads of any direction are followed uphill, before the worst is refined: to the faces, edges and corners
-/// of a cube.
+/// Number of directions from which loads of any direction are followed uphill, before the worst is refined: to the
+/// faces, edges and corners of a cube.
 pub const DIRECTIONS: usize = 26;
-/// Most steps uphill from each of them; a few are enough.
+/// Maximum number of steps uphill from each direction; a few are enough.
 const CLIMB: usize = 20;
 
-/// What statics say of the hardest case of a diameter.
+/// Result of the statics for the worst case of a diameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum HoldVerdict {
     /// Held with these forces.
@@ -27,21 +27,21 @@ pub enum HoldVerdict {
     Undecided(HoldingError),
 }
 
-/// The hardest case of a diameter.
+/// The worst case of a diameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hardest {
-    /// The case in words, such as "acceleration (5, 0, 0) m/s²".
+    /// Description of the case, such as "acceleration (5, 0, 0) m/s²".
     pub case: String,
     /// Gravity less acceleration in the gripper's axes, without the safety factor. `[m/s²]`
     pub pull: Spatial,
     /// The load with its safety factor.
     pub load: PartWrench,
-    /// What comes of it.
+    /// The result.
     pub verdict: HoldVerdict,
 }
 
 impl Hardest {
-    /// Returns the forces that hold the part, where it is held.
+    /// Returns the forces that hold the part, if it is held.
     #[must_use]
     pub fn held(&self) -> Option<&Holding> {
         match &self.verdict {
@@ -56,28 +56,28 @@ impl Hardest {
 pub struct DiameterRow {
     /// `[m]`
     pub diameter: f64,
-    /// The gripper, its pivots set for this diameter where they are.
+    /// The gripper, with its pivots set for this diameter if they are adjustable.
     pub gripper: Gripper,
     /// The arms.
     pub arms: Arms,
-    /// The pose, where the levers reach.
+    /// The pose, if the levers reach the part.
     pub pose: Option<TouchingPose>,
-    /// Why it cannot be held, whatever the forces; empty where it can.
+    /// Reasons why it cannot be held by any forces. Empty if it can.
     pub obstacles: Vec<Unholdable>,
-    /// Mass of the part; 0 where no load is stated. `[kg]`
+    /// Mass of the part; 0 if no load is stated. `[kg]`
     pub mass: f64,
-    /// The hardest case, where a load is stated and nothing stands against holding.
+    /// The worst case, if a load is stated and there are no obstacles.
     pub hardest: Option<Hardest>,
 }
 
 impl DiameterRow {
-    /// The drive moment per lever, where the part is held against a load. `[N·m]`
+    /// Returns the drive moment per lever, if the part is held against a load. `[N·m]`
     #[must_use]
     pub fn drive(&self) -> Option<f64> {
         Some(self.hardest.as_ref()?.held()?.drive)
     }
 
-    /// Whether the part is held in every case stated.
+    /// Returns true if the part is held in every stated case.
     #[must_use]
     pub fn holds(&self) -> bool {
         let forces = self.hardest.as_ref();
@@ -90,18 +90,18 @@ impl DiameterRow {
 pub struct Study {
     /// The lever.
     pub lever: Lever,
-    /// One row a diameter, ascending.
+    /// One row per diameter, ascending.
     pub rows: Vec<DiameterRow>,
 }
 
 impl Study {
-    /// Whether every diameter is held in every case.
+    /// Returns true if every diameter is held in every case.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.rows.iter().all(DiameterRow::holds)
     }
 
-    /// The diameter that takes the greatest drive moment.
+    /// Returns the diameter that requires the largest drive moment.
     #[must_use]
     pub fn hardest(&self) -> Option<&DiameterRow> {
         let held = self.rows.iter().filter_map(|r| Some((r, r.drive()?)));
@@ -109,7 +109,7 @@ impl Study {
     }
 }
 
-/// Gravity less acceleration: a vector, and a further one of given size and any direction.
+/// Gravity less acceleration: a vector, and another of given size and any direction.
 struct GravityCase {
     base: Spatial,
     any: f64,
@@ -181,7 +181,7 @@ fn cube_directions() -> impl Iterator<Item = Spatial> {
         .map(unit)
 }
 
-/// How hard a verdict is; what cannot be held is hardest.
+/// Returns the difficulty of a verdict; a part that cannot be held is the most difficult.
 fn hardness(v: &HoldVerdict) -> f64 {
     match v {
         HoldVerdict::Held(h) => h.drive,
@@ -189,7 +189,7 @@ fn hardness(v: &HoldVerdict) -> f64 {
     }
 }
 
-/// What comes of a load in a pose.
+/// Returns the verdict on a load in a pose.
 pub(super) fn verdict(
     pose: &TouchingPose,
     load: &PartWrench,
@@ -222,12 +222,12 @@ fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCas
     if case.any == 0.0 {
         return at([0.0; 3]).1;
     }
-    // The moment is a convex function of the load, so its greatest value over a ball lies on the sphere; there may be several
-    // that are greatest nearby, and the greatest of all need not be near the best of a few directions.
+    // The moment is a convex function of the load, so its maximum over a ball lies on the sphere. There may be several
+    // local maxima, and the global one need not be near the best of a few directions.
     let mut worst = at([1.0, 0.0, 0.0]);
     for u in cube_directions() {
         let found = climbed(at, at(u));
-        // Mirror images are as hard: rounding must not put one before the other.
+        // Mirror images are equally difficult. Rounding must not prefer one of them.
         if hardness(&found.1.verdict) > hardness(&worst.1.verdict) * (1.0 + 1e-6) {
             worst = found;
         }
@@ -248,13 +248,13 @@ fn hardest_of(pose: &TouchingPose, load: &GripLoad, mass: f64, case: &GravityCas
     worst.1
 }
 
-/// From a direction on to where the moment grows no more. Its slope there, made a direction, is where its tangent is greatest
-/// over the ball, and a convex function is nowhere below its tangent: every step goes up.
+/// Follows a direction to where the moment no longer increases. The direction of the slope there maximises the tangent
+/// over the ball. A convex function is nowhere below its tangent, so every step increases the moment.
 fn climbed(
     at: impl Fn(Spatial) -> (Spatial, Hardest),
     mut here: (Spatial, Hardest),
 ) -> (Spatial, Hardest) {
-    /// Of a difference that stands for a slope.
+    /// Step of a finite difference that approximates a slope.
     const STEP: f64 = 1e-3;
     for _ in 0..CLIMB {
         let (u, now) = (here.0, hardness(&here.1.verdict));
@@ -276,7 +276,7 @@ fn climbed(
     here
 }
 
-/// The gripper for a diameter.
+/// Returns the gripper for a diameter.
 pub(super) fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
     Gripper {
         lever,
@@ -291,14 +291,14 @@ pub(super) fn gripper(spec: &GripSpec, lever: Lever, diameter: f64) -> Gripper {
     }
 }
 
-/// Studies every diameter of a gripper in every case of its load.
+/// Analyses every diameter of a gripper in every case of its load.
 ///
 /// # Guarantee
-/// A load of any direction is followed uphill from [`DIRECTIONS`] directions and refined about the worst: a lower bound of the
-/// moment over all directions, and in practice its value.
+/// A load of any direction is followed uphill from [`DIRECTIONS`] directions and refined about the worst. The result is
+/// a lower bound of the moment over all directions, and in practice its value.
 ///
 /// # Errors
-/// A lever whose figures are out of range.
+/// Returns an error if figures of the lever are out of range.
 pub fn study(spec: &GripSpec) -> Result<Study, LeverError> {
     let lever = Lever::new(spec.lever_length, spec.prism_angle, spec.mounting_angle)?;
     let row = |&diameter: &f64| {

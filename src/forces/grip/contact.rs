@@ -1,7 +1,7 @@
-//! Where the levers and the part are: the pose of a two-lever gripper, and whether it can hold a part at all.
+//! Positions of the levers and the part: the pose of a two-lever gripper, and whether it can hold a part at all.
 //!
-//! Axes: x along the gripper's axis of symmetry from the pivots to the part, y from the lower to the upper lever, z along
-//! the pivots and the part. The origin is midway between the pivots.
+//! Axes: x along the gripper's axis of symmetry from the pivots to the part, y from the lower to the upper lever, z
+//! along the pivots and the part. The origin is midway between the pivots.
 
 use crate::geom::vector::{cross_plane, dot, turned};
 use crate::grip::lever_arm::Lever;
@@ -15,13 +15,13 @@ pub type Planar = [f64; 2];
 pub struct Gripper {
     /// The upper lever; the lower one is its mirror image.
     pub lever: Lever,
-    /// Signed distance a of the upper lever's pivot from the axis; negative where the levers cross. `[m]`
+    /// Signed distance a of the upper lever's pivot from the axis; negative if the levers cross. `[m]`
     pub pivot: f64,
-    /// Length of a face from the vertex, where it is known. `[m]`
+    /// Length of a face from the vertex, if known. `[m]`
     pub face_length: Option<f64>,
-    /// Width of a lever across its line from pivot to vertex; 0 for a mere line. `[m]`
+    /// Width of a lever perpendicular to its line from pivot to vertex; 0 for a line. `[m]`
     pub lever_width: f64,
-    /// Whether the levers lie in planes of their own and may cross.
+    /// Whether the levers lie in separate planes and may cross.
     pub may_cross: bool,
 }
 
@@ -32,9 +32,9 @@ pub struct Contact {
     pub name: &'static str,
     /// 0 for the upper lever, 1 for the lower.
     pub lever: usize,
-    /// Whether it is the contact far from the pivot, whose arm is l1.
+    /// Whether it is the contact far from the pivot, with arm l1.
     pub far: bool,
-    /// Where it is. `[m]`
+    /// Position. `[m]`
     pub point: Planar,
     /// Unit normal of the face, towards the part.
     pub normal: Planar,
@@ -51,18 +51,18 @@ pub struct TouchingPose {
     pub centre: Planar,
     /// The pivots of the upper and the lower lever. `[m]`
     pub pivots: [Planar; 2],
-    /// The vertices of the upper and the lower prism. `[m]`
+    /// The vertices of the upper and the lower V-block. `[m]`
     pub vertices: [Planar; 2],
-    /// How far the upper lever has turned counterclockwise from where its bisector stands across the axis. `[rad]`
+    /// Counterclockwise angle of the upper lever from the position with its bisector perpendicular to the axis. `[rad]`
     pub turn: f64,
     /// Upper far, upper near, lower far, lower near.
     pub contacts: [Contact; 4],
 }
 
-/// Why a part cannot be held, whatever the forces.
+/// Reason why a part cannot be held by any forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unholdable {
-    /// The prisms cannot come together round it between these pivots. `[m]`
+    /// The V-blocks cannot close around it between these pivots. `[m]`
     OutOfReach {
         /// Distance from a pivot to the part's centre.
         reach: f64,
@@ -90,7 +90,7 @@ pub enum Unholdable {
         /// Half the width of a lever. `[m]`
         half_width: f64,
     },
-    /// The tips of the two prisms would overlap before they touch the part. `[m]`
+    /// The tips of the two V-blocks would overlap before they touch the part. `[m]`
     TipsMeet {
         /// Signed distance of the upper tip from the axis.
         tip: f64,
@@ -149,7 +149,7 @@ impl fmt::Display for Unholdable {
 }
 
 impl Gripper {
-    /// The gripper for which a diameter is nominal.
+    /// Creates the gripper for which a diameter is nominal.
     #[must_use]
     pub fn nominal(lever: Lever, diameter: f64) -> Gripper {
         Gripper {
@@ -161,17 +161,17 @@ impl Gripper {
         }
     }
 
-    /// The pose in which all four faces touch a part of this diameter; the levers turn to fit it.
+    /// Returns the pose in which all four faces touch a part of this diameter; the levers turn to fit it.
     ///
     /// # Errors
-    /// Where there is no such pose.
+    /// Returns an error if there is no such pose.
     ///
     /// # Sources
     /// The triangle of pivot, vertex and centre; `[Pavlenko & Godunko 2010]` fig. 1 for its angle at the vertex.
     pub fn pose(&self, diameter: f64) -> Result<TouchingPose, Unholdable> {
         let (lever, half) = (&self.lever, self.lever.prism_angle / 2.0);
         let to_centre = lever.centre_distance(diameter);
-        // With the vertex at the origin and the bisector pointing down, across the axis.
+        // With the vertex at the origin and the bisector pointing down, perpendicular to the axis.
         let theta = lever.bisector_angle();
         let pivot_there = [-lever.length * theta.sin(), -lever.length * theta.cos()];
         let centre_there = [0.0, -to_centre];
@@ -181,7 +181,7 @@ impl Gripper {
         ];
         let reach = across[0].hypot(across[1]);
         let ahead = (reach - self.pivot.abs()) * (reach + self.pivot.abs());
-        // At a difference this small the part sits between the pivots.
+        // At a difference this small the part is between the pivots.
         if ahead.is_nan() || ahead <= 1e-18 * reach * reach {
             return Err(Unholdable::OutOfReach {
                 reach,
@@ -230,7 +230,7 @@ impl Gripper {
         })
     }
 
-    /// Every reason why a part of this diameter cannot be held, whatever the forces; none where it can.
+    /// Returns every reason why a part of this diameter cannot be held by any forces. Empty if it can be held.
     ///
     /// # Sources
     /// `[Pavlenko & Godunko 2010]`: only combinations that can really hold the part count.
@@ -262,7 +262,7 @@ impl Gripper {
         }
         let clearance = pose.pivots[0][1].min(pose.vertices[0][1]);
         let half_width = self.lever_width / 2.0;
-        // Rounding must not part levers that lie on the axis.
+        // Rounding must not reject levers that lie on the axis.
         if !self.may_cross && clearance < half_width - 1e-12 * self.lever.length {
             out.push(Unholdable::Crossed {
                 clearance,

@@ -1,7 +1,8 @@
-//! Faces of jaws as the forces they can put on a part: at points of the face, each within its cone of friction.
+//! Faces of jaws as the forces they can exert on a part: at points of the face, each within its friction cone.
 //!
-//! Friction, the moment about the normal and the moment along the face all come from the same pressure, so they are limited
-//! together: what a face holds by friction at its rim it cannot hold again as a turn, or while it is tipped over an edge.
+//! Friction, the moment about the normal and the moment along the face all come from the same pressure, so they are
+//! limited together. Friction that a face uses at its rim is not available again to resist a turn, or while the face is
+//! tipped over an edge.
 
 use crate::geom::vector::{add_scaled, cross, dot, sub};
 use crate::model::joint_type::JointType;
@@ -10,15 +11,16 @@ use crate::statics::reactions::contact::Contact;
 use crate::statics::reactions::geometry::{Geometry, Six, wrench};
 use std::f64::consts::TAU;
 
-/// Points that stand for the rim of a round face: the polygon lies within the face, 2 % at most inside its rim.
+/// Number of points of the polygon that represents the rim of a round face. The polygon lies within the face, at most 2
+/// % inside its rim.
 pub(crate) const RIM: usize = 16;
 
-/// Where the pressure of a face can be, lengths in the geometry's size.
+/// Area in which the pressure of a face can act, with lengths in the geometry's size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PressureArea {
-    /// Round, of this radius; without end where none is stated.
+    /// A disc of this radius; unlimited if none is stated.
     Disc(Option<f64>),
-    /// A line along x of the joint's frame, of this half length; without end where none is stated.
+    /// A line along x of the joint's frame, of this half length; unlimited if none is stated.
     Line(Option<f64>),
     /// A point.
     Point,
@@ -27,29 +29,29 @@ pub enum PressureArea {
 /// A face of a jaw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JawFace {
-    /// The joint that stands for it.
+    /// The joint that represents it.
     pub joint: JointId,
-    /// 1 where the part is the second link of the joint, -1 where it is the first.
+    /// 1 if the part is the second link of the joint, -1 if it is the first.
     pub second: f64,
-    /// 1 where z of the joint's frame points to the part, else -1.
+    /// 1 if z of the joint's frame points to the part, otherwise -1.
     pub towards: f64,
-    /// Coefficient of friction; as much as it takes where `None`.
+    /// Coefficient of friction. `None` means as much friction as required.
     pub friction: Option<f64>,
-    /// Where its pressure can be.
+    /// Area of its pressure.
     pub shape: PressureArea,
 }
 
-/// A point that presses: unit wrenches on the part, about the geometry's middle.
+/// A pressing point: unit wrenches on the part, about the geometry's middle.
 #[derive(Debug, Clone)]
 pub(super) struct Press {
-    /// Along the normal.
+    /// Wrench along the normal.
     pub(super) normal: Six,
-    /// Along the face.
+    /// Wrenches along the face.
     pub(super) along: [Six; 2],
 }
 
 impl JawFace {
-    /// The face that a contact is, with the friction and the half length of a line that a grip states for it.
+    /// Creates the face of a contact, with the friction and the half length of a line that a grip states for it.
     #[must_use]
     pub fn new(m: &Mechanism, g: &Geometry, contact: &Contact, object: LinkId) -> JawFace {
         let joint = &m.joints[contact.joint];
@@ -75,7 +77,7 @@ impl JawFace {
         }
     }
 
-    /// The face without friction.
+    /// Returns the face without friction.
     #[must_use]
     pub fn smooth(self) -> JawFace {
         JawFace {
@@ -84,7 +86,7 @@ impl JawFace {
         }
     }
 
-    /// Its points, and the wrenches that have no limit where no size is stated.
+    /// Returns its points, and the wrenches that are unlimited if no size is stated.
     pub(super) fn presses(&self, g: &Geometry) -> (Vec<Press>, Vec<Six>) {
         let ([x, y, z], at) = (g.axes[self.joint], g.points[self.joint]);
         let normal = z.map(|c| c * self.towards);
@@ -119,7 +121,7 @@ impl JawFace {
         }
     }
 
-    /// How far it reaches from its point, where that is known.
+    /// Returns its extent from its point, if known.
     #[must_use]
     pub fn reach(&self) -> Option<f64> {
         match self.shape {
@@ -129,7 +131,7 @@ impl JawFace {
     }
 }
 
-/// A vector turned about a unit axis by an angle `[rad]`.
+/// Rotates a vector about a unit axis by an angle `[rad]`.
 pub(super) fn turned_about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = angle.sin_cos();
     let along = axis.map(|a| a * dot(axis, v));

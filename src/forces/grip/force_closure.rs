@@ -1,12 +1,15 @@
-//! How firmly the contacts of a clamped mechanism hold a part: force closure, form closure, and how far from their loss.
+//! Force closure and form closure of a clamped part, and the margins to their loss.
 //!
-//! The drives stand still, and the part is clamped as hard as you like. A load on the part is resisted where the contacts can
-//! put forces within their cones on it that do no work, together with the load, on any motion the mechanism and the part would
-//! have without the contacts: what jaws cannot bear counts as little as what faces cannot give. With normal forces of 1 in all,
-//! the loads resisted are a convex set. The part is held against every small load, *force closure*, where the origin is inside;
-//! the *margin* is the radius of the greatest ball about the origin in the set. *Form closure* is the same without friction.
+//! The drives are at rest, and the part is clamped with arbitrary force. Consider contact forces within their cones
+//! that balance a load on the part. The load is resisted if such forces exist, that is, if forces and load together do
+//! no work on any motion of mechanism and part without the contacts. So both the limits of the jaws and those of the
+//! faces count.
 //!
-//! Shares of parts out of true that contacts hold.
+//! With normal forces of 1 in total, the resisted loads are a convex set. The part is held against every small load,
+//! *force closure*, if the origin is inside. The *margin* is the radius of the largest ball about the origin in the
+//! set. *Form closure* is the same without friction.
+//!
+//! The module also computes shares of inaccurate parts that the contacts hold.
 
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
@@ -18,48 +21,51 @@ use crate::statics::reactions::geometry::Six;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 
-/// Loads above this, by the normal forces, count as resisted without limit.
+/// Load, relative to the normal forces, above which a load counts as resisted without limit.
 const LIMIT: f64 = 1e3;
-/// Enough to know that a load is resisted at all: the numbers of a programme stay of one size.
+/// Load that is enough to know that a direction is resisted at all. It keeps the numbers of a program at one order of
+/// magnitude.
 const ENOUGH: f64 = 1.0;
-/// Loads below this count as not resisted.
+/// Load below which a direction counts as not resisted.
 pub const NOTHING: f64 = 1e-6;
-/// Loads closer than this part of them are equal.
+/// Relative difference below which loads count as equal.
 const TIE: f64 = 1e-6;
-/// A load is known well where its bounds are closer than this part of it.
+/// Relative distance of the bounds below which a load is known well.
 const WELL_KNOWN: f64 = 1e-5;
-/// It is known at all where they are closer than this.
+/// Relative distance of the bounds below which a load is known at all.
 const KNOWN: f64 = 1e-4;
-/// What is left of balance must be below this part of the margin.
+/// Maximum residual of the balance, relative to the margin.
 const LEFT: f64 = 1e-2;
-/// Most steps from a direction to one that is resisted less; a few are enough.
+/// Maximum number of steps from a direction to one that is resisted less; a few are enough.
 const STEPS: usize = 20;
 
-/// What the contacts hold.
+/// Result of the closure analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceClosure {
-    /// Whether every small load is resisted; nothing where that is within the accuracy of the programmes.
+    /// Whether every small load is resisted, or `None` if that is within the accuracy of the programs.
     pub closed: Option<bool>,
-    /// The margin is at least this: the radius of the ball in the hull of the loads resisted along the axes. 0 without closure.
+    /// Lower bound of the margin: the radius of the ball in the hull of the loads resisted along the axes. 0 without
+    /// closure.
     pub at_least: f64,
-    /// The margin is at most this: the smallest load found that is just resisted; [`f64::INFINITY`] where each has no limit.
+    /// Upper bound of the margin: the smallest load found that is just resisted; [`f64::INFINITY`] if no direction has
+    /// a limit.
     pub at_most: f64,
     /// The direction of that load, (moment over the part's size; force) about its middle.
     pub weakest: Six,
-    /// Greatest loads resisted along the axes, one way and the other; [`f64::INFINITY`] where there is no limit.
+    /// Largest loads resisted along the axes, in both directions; [`f64::INFINITY`] if there is no limit.
     pub along: Vec<(Six, f64)>,
 }
 
 impl ForceClosure {
-    /// Whether every small load is known to be resisted.
+    /// Returns true if every small load is known to be resisted.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.closed == Some(true)
     }
 }
 
-/// The load up to `cap` in a direction that the faces resist. Of the ways to go about the programme the first that is good
-/// enough, else the one whose bounds are closest.
+/// Returns the load up to `cap` in a direction that the faces resist. Several solver settings are tried, and the first
+/// result that is good enough is used. Otherwise it is the one with the closest bounds.
 fn tried(
     forces: &Forces,
     d: &Six,
@@ -80,7 +86,7 @@ fn tried(
     best.ok_or_else(|| Unsolved::Programme("no answer".to_owned()))
 }
 
-/// The load in a direction, with its normal.
+/// Returns the load in a direction, with its normal.
 fn resisted(forces: &Forces, d: &Six) -> Result<(f64, Six), Unsolved> {
     for cap in [ENOUGH, LIMIT] {
         let found = tried(forces, d, cap, |r| r.agrees(WELL_KNOWN))?;
@@ -104,22 +110,23 @@ fn resisted(forces: &Forces, d: &Six) -> Result<(f64, Six), Unsolved> {
     Ok((f64::INFINITY, *d))
 }
 
-/// What faces hold, each with its friction.
+/// Determines the loads that faces resist, each with its friction.
 ///
 /// # Guarantee
-/// `at_least` and `at_most` bracket the margin, to 1e-4 of it: the set is convex, so that it has the hull of the loads resisted
-/// along the axes; from each of these the search goes on to where the set is nearest by its tangent planes, which never leads
-/// away. Round faces are polygons within them, so that margins are at most 2 % too small. `closed` is that of [`is_closed`].
+/// `at_least` and `at_most` bracket the margin, to 1e-4 of it. The set is convex, so it contains the hull of the loads
+/// resisted along the axes. From each of these, the search continues to where the set is nearest by its tangent planes,
+/// which never increases the distance. Round faces are replaced by inscribed polygons, so margins are at most 2 % too
+/// small. `closed` is that of [`is_closed`].
 ///
 /// # Sources
-/// The margin is that of C. Ferrari, J. Canny, Planning optimal grasps, IEEE Int. Conf. Robotics and Automation, 1992, with normal
-/// forces added up.
+/// The margin is that of C. Ferrari, J. Canny, Planning optimal grasps, IEEE Int. Conf. Robotics and Automation, 1992,
+/// with normal forces added up.
 ///
 /// # Errors
-/// Where a cone programme has no answer.
+/// Returns an error if a cone program has no solution.
 ///
 /// # Complexity
-/// Some hundred cone programmes, each of 3 unknowns a point.
+/// A few hundred cone programs, each with 3 unknowns per point.
 pub fn closure(part: &ClampedPart, faces: &[JawFace]) -> Result<ForceClosure, Unsolved> {
     let forces = Forces::new(part, faces);
     let mut along = Vec::new();
@@ -133,7 +140,7 @@ pub fn closure(part: &ClampedPart, faces: &[JawFace]) -> Result<ForceClosure, Un
             along.push((d, load));
             least = f64::min(least, load);
             for _ in 0..STEPS {
-                // Mirror images are as weak: rounding must not put one before the other.
+                // Mirror images are equally weak. Rounding must not prefer one of them.
                 if load < weakest.1 * (1.0 - TIE) {
                     weakest = (d, load);
                 }
@@ -165,14 +172,15 @@ pub fn closure(part: &ClampedPart, faces: &[JawFace]) -> Result<ForceClosure, Un
     })
 }
 
-/// Whether every small load is resisted, and no more: a programme an axis and way, and more where one stalls.
+/// Determines only whether every small load is resisted: one program per axis and direction, and more if one stalls.
 ///
 /// # Guarantee
-/// Not closed is proven by a motion, which the contacts work on in one sense only, or hardly. Closed is said where the forces
-/// found, within their cones, balance loads along all axes to a hundredth of the margin these give. Nothing is said otherwise.
+/// Lack of closure is proven by a motion on which the contacts work in one sense only, or hardly. Closure is reported
+/// if the forces found, within their cones, balance loads along all axes to a hundredth of the resulting margin.
+/// Otherwise the result is undecided.
 ///
 /// # Errors
-/// Where the solver refuses a programme.
+/// Returns an error if the solver rejects a program.
 pub fn is_closed(part: &ClampedPart, faces: &[JawFace]) -> Result<Option<bool>, Unsolved> {
     let forces = Forces::new(part, faces);
     let (mut inverse, mut left) = (0.0, 0.0);
@@ -193,27 +201,28 @@ pub fn is_closed(part: &ClampedPart, faces: &[JawFace]) -> Result<Option<bool>, 
     Ok((margin > NOTHING && left <= LEFT * margin).then_some(true))
 }
 
-/// How many samples have closure.
+/// Numbers of samples with closure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosureShares {
-    /// How many there were.
+    /// Number of samples.
     pub samples: usize,
-    /// By how much points and rims are out at most `[m]`.
+    /// Maximum deviation of points and rims `[m]`.
     pub tolerance: f64,
-    /// With force closure.
+    /// Number with force closure.
     pub force_closed: usize,
-    /// With form closure.
+    /// Number with form closure.
     pub form_closed: usize,
-    /// Of which force closure is within the accuracy of the programmes.
+    /// Number whose force closure is within the accuracy of the programs.
     pub force_undecided: usize,
-    /// Of which form closure is.
+    /// Number whose form closure is within it.
     pub form_undecided: usize,
 }
 
-/// Closure of a part with its contacts out by up to `tolerance` `[m]`, `samples` times; the same seed gives the same answer.
+/// Computes the closure of a part with its contacts off by up to `tolerance` `[m]`, `samples` times. The same seed
+/// gives the same result.
 ///
 /// # Errors
-/// Where the solver refuses a programme; one that it stalls at leaves a sample undecided.
+/// Returns an error if the solver rejects a program. A program at which it stalls leaves a sample undecided.
 pub fn shares(
     part: &ClampedPart,
     tolerance: f64,

@@ -1,8 +1,8 @@
-//! The four contact forces that hold a part, and the smallest drive moment that brings them about.
+//! The four contact forces that hold a part, and the smallest drive moment that produces them.
 //!
-//! The part and the two levers are in equilibrium in space; contacts are points at mid-width with Coulomb friction, whose
-//! cone is kept exact (a second-order cone programme). Forces that *can* hold are asked for: where more than one set does, nature
-//! may choose another, which is what the safety factor is for.
+//! The part and the two levers are in equilibrium in space. Contacts are points at mid-width with Coulomb friction,
+//! whose cone is kept exact (a second-order cone program). The result is one set of forces that *can* hold the part. If
+//! there are several sets, nature may choose another, which the safety factor covers.
 
 use crate::geom::vector::cross;
 use crate::grip::contact::TouchingPose;
@@ -26,7 +26,7 @@ pub struct PartWrench {
 }
 
 impl PartWrench {
-    /// Weight less inertia force of a mass: m (g - a), at its centre of mass.
+    /// Returns the weight less the inertia force of a mass: m (g - a), at its centre of mass.
     ///
     /// # Units
     /// `[kg]`, `[m/s²]`, offset from the part's centre `[m]`.
@@ -44,7 +44,7 @@ impl PartWrench {
         }
     }
 
-    /// The load times a factor, such as one for safety.
+    /// Returns the load times a factor, such as one for safety.
     #[must_use]
     pub fn times(&self, factor: f64) -> PartWrench {
         PartWrench {
@@ -57,7 +57,7 @@ impl PartWrench {
 /// The force of one face on the part.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactForce {
-    /// Along the contact's normal, towards the part; not negative. `[N]`
+    /// Component along the contact's normal, towards the part; not negative. `[N]`
     pub normal: f64,
     /// Friction along the face, from its vertex. `[N]`
     #[serde(rename = "along_face")]
@@ -68,14 +68,14 @@ pub struct ContactForce {
 }
 
 impl ContactForce {
-    /// No force.
+    /// A force of zero.
     const NONE: ContactForce = ContactForce {
         normal: 0.0,
         along: 0.0,
         axial: 0.0,
     };
 
-    /// Size of the friction force. `[N]`
+    /// Returns the size of the friction force. `[N]`
     #[must_use]
     pub fn friction(&self) -> f64 {
         self.along.hypot(self.axial)
@@ -83,14 +83,15 @@ impl ContactForce {
 }
 
 impl ContactForce {
-    /// The same within the cone of friction, from which a solver's answer is off by its tolerance; nothing where the normal
-    /// force is below `least`, which is rounding.
+    /// Returns the force moved into the friction cone, from which a solver's result deviates within its tolerance.
+    /// Returns zero if the normal force is below `least`, which is rounding.
     fn within(self, friction: f64, least: f64) -> ContactForce {
         if self.normal <= least {
             return ContactForce::NONE;
         }
         let most = friction * self.normal;
-        // A few digits of slack, so that the square root of the sum of squares is not above it by rounding.
+        // A few digits of tolerance, so that rounding does not put the square root of the sum of squares above the
+        // limit.
         let scale = if self.friction() > most {
             most / self.friction() * (1.0 - 4.0 * f64::EPSILON)
         } else {
@@ -104,10 +105,10 @@ impl ContactForce {
     }
 }
 
-/// Forces below this fraction of the load are rounding of the solver's.
+/// Fraction of the load below which forces are rounding errors of the solver.
 const ROUNDING: f64 = 1e-7;
 
-/// A small motion of the part against the faces.
+/// A small motion of the part relative to the faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slip {
     /// Velocity of the part's centre.
@@ -117,7 +118,7 @@ pub struct Slip {
 }
 
 impl Slip {
-    /// The certificate that nothing holds is a motion on which the load works and no contact force takes work away.
+    /// Converts a certificate of infeasibility: a motion on which the load works and no contact force takes work away.
     fn of_certificate(z: &[f64]) -> Slip {
         let z = &z[..6];
         let size = z.iter().map(|z| z * z).sum::<f64>().sqrt();
@@ -129,21 +130,22 @@ impl Slip {
     }
 }
 
-/// Forces that hold the part with the least drive moment.
+/// Forces that hold the part with the smallest drive moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Holding {
     /// Forces on the part, in the order of [`TouchingPose::contacts`].
     pub forces: [ContactForce; 4],
     /// Drive moments on the upper and the lower lever, positive when they close. `[N·m]`
     pub moments: [f64; 2],
-    /// The drive moment per lever that is enough: the mean of the two where they are coupled, the greater otherwise. `[N·m]`
+    /// The required drive moment per lever: the mean of the two if they are coupled, the larger otherwise. `[N·m]`
     pub drive: f64,
-    /// No smaller drive moment holds the part: value of the dual programme, to its tolerance, and not above `drive`. `[N·m]`
+    /// Lower bound of the drive moment that holds the part: value of the dual program, to its tolerance, and not above
+    /// `drive`. `[N·m]`
     pub lower_bound: f64,
 }
 
 impl Holding {
-    /// Where there is no load.
+    /// The result without a load.
     const IDLE: Holding = Holding {
         forces: [ContactForce::NONE; 4],
         moments: [0.0; 2],
@@ -152,46 +154,46 @@ impl Holding {
     };
 }
 
-/// What statics say of a part between four faces.
+/// Result of the statics of a part between four faces.
 #[derive(Debug, Clone, PartialEq)]
 pub enum HoldingOutcome {
     /// It can be held.
     Held(Holding),
-    /// No forces balance the load, however hard the drive closes.
+    /// No forces balance the load, for any drive moment.
     Slips(Slip),
 }
 
-/// Why statics have no answer.
+/// Reason why the statics have no result.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HoldingError {
-    /// Not a coefficient.
+    /// The value is not a coefficient of friction.
     #[error("the coefficient of friction is {0}; give a number from 0 to 10")]
     Friction(f64),
-    /// Not a wrench.
+    /// The value is not a wrench.
     #[error("the load is not finite; check mass, acceleration and gravity")]
     Load,
-    /// The solver gave up.
+    /// The solver stopped without a solution.
     #[error(
         "the force programme ended with {0}; the case is too near the limit of what can be held"
     )]
     Solver(String),
 }
 
-/// A linear programme over cones: minimise the drive moment subject to `row · x + s = right`, s in the cone of the row.
-/// Dimensionless: lengths over the lever's, forces over the load.
+/// A linear program over cones: minimise the drive moment subject to `row · x + s = right`, with s in the cone of the
+/// row. Dimensionless: lengths over the lever's, forces over the load.
 struct Programme<'a> {
     pose: &'a TouchingPose,
     /// Length of a lever. `[m]`
     length: f64,
     /// Directions of the three components of each contact force.
     directions: [[Spatial; 3]; 4],
-    /// Components in use: three with friction, one without.
+    /// Number of components in use: three with friction, one without.
     used: usize,
     cones: ConeProgramme,
 }
 
-/// The drive moment among the variables, after three components for each of four contacts.
+/// Index of the drive moment among the variables, after three components for each of four contacts.
 const DRIVE: usize = 12;
 
 impl<'a> Programme<'a> {
@@ -209,7 +211,7 @@ impl<'a> Programme<'a> {
         }
     }
 
-    /// Contact, component and variable of every force component in use.
+    /// Returns contact, component and variable of every force component in use.
     fn components(&self) -> impl Iterator<Item = (usize, usize, usize)> + use<> {
         let used = self.used;
         (0..4).flat_map(move |c| (0..used).map(move |d| (c, d, 3 * c + d)))
@@ -228,7 +230,7 @@ impl<'a> Programme<'a> {
         ]
     }
 
-    /// Three equations of forces and three of moments about the part's centre.
+    /// Adds three equations of forces and three of moments about the part's centre.
     fn balance(&mut self, load: &PartWrench, unit: f64) {
         let wrenches: Vec<(usize, Spatial, Spatial)> = self
             .components()
@@ -249,7 +251,8 @@ impl<'a> Programme<'a> {
         }
     }
 
-    /// The closing moment that a lever needs, `scale` times: that of the part's forces on it about its pivot.
+    /// Returns the closing moment that a lever requires, times `scale`: that of the part's forces on it about its
+    /// pivot.
     fn lever(&self, k: usize, scale: f64) -> Vec<(usize, f64)> {
         let sign = if k == 0 { -scale } else { scale };
         let own = self
@@ -264,7 +267,7 @@ impl<'a> Programme<'a> {
         .collect()
     }
 
-    /// Each lever's moment against the drive's.
+    /// Adds the balance of each lever's moment with the drive's.
     fn equal_levers(&mut self) {
         for k in 0..2 {
             let row = self.lever(k, 1.0).into_iter().chain([(DRIVE, -1.0)]);
@@ -277,7 +280,7 @@ impl<'a> Programme<'a> {
         if levers == LeverDrive::Equal {
             self.equal_levers();
         }
-        // Components that frictionless contacts do not have are held at zero.
+        // The missing components of frictionless contacts are held at zero.
         let used = self.used;
         for v in (0..DRIVE).filter(|v| v % 3 >= used) {
             self.row([(v, 1.0)], 0.0);
@@ -313,7 +316,7 @@ impl<'a> Programme<'a> {
         self
     }
 
-    /// The holding that these forces are, with a lower bound of any drive moment.
+    /// Returns the holding with these forces, with a lower bound of any drive moment.
     fn held_by(&self, forces: [ContactForce; 4], levers: LeverDrive, least: f64) -> Holding {
         let of = |v: usize| {
             let f: &ContactForce = &forces[v / 3];
@@ -324,7 +327,8 @@ impl<'a> Programme<'a> {
             own.iter().map(|&(v, a)| a * of(v)).sum::<f64>() * self.length
         };
         let moments = [moment(0), moment(1)];
-        // That of these forces, so that statics find the same, and not the solver's own to its tolerance.
+        // The moment of these forces, so that the statics give the same, and not that of the solver, which has its
+        // tolerance.
         let drive = match levers {
             LeverDrive::Coupled => f64::midpoint(moments[0], moments[1]),
             LeverDrive::Equal | LeverDrive::Independent => moments[0].max(moments[1]),
@@ -339,20 +343,22 @@ impl<'a> Programme<'a> {
     }
 }
 
-/// The least drive moment per lever that holds the part in a pose under a load, or the motion in which it slips.
+/// Returns the smallest drive moment per lever that holds the part in a pose under a load, or the motion in which it
+/// slips.
 ///
 /// # Units
 /// SI.
 ///
 /// # Guarantee
-/// Forces balance the load to 1e-6 of it, and the drive moment exceeds the least one by no more than `drive - lower_bound`.
+/// Forces balance the load to 1e-6 of it, and the drive moment exceeds the smallest one by no more than `drive -
+/// lower_bound`.
 ///
 /// # Errors
-/// Friction or load out of range; a solver that gives up.
+/// Returns an error if friction or load are out of range, or if the solver stops without a solution.
 ///
 /// # Sources
-/// Equilibrium of the part (six equations) and of each lever about its pivot, moments taken from coordinates, not from the
-/// arms of `[Pavlenko & Godunko 2010]`.
+/// Equilibrium of the part (six equations) and of each lever about its pivot, with moments from coordinates, not from
+/// the arms of `[Pavlenko & Godunko 2010]`.
 pub fn hold(
     pose: &TouchingPose,
     load: &PartWrench,

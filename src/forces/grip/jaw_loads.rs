@@ -1,20 +1,23 @@
-//! What a grip does to the mechanism that brings it about: the part cut free, its contact forces on the jaws.
+//! Loads of a grip on its mechanism: the part is cut free, and its contact forces act on the jaws.
 //!
-//! In a state that has the grip's contacts, two descriptions of them meet. As joints they are bilateral and know no
-//! friction: they pull as well as push, leave what friction holds to give way, and with the clamping force as a
-//! self-stress they leave the reactions open. The grip's cone programme ([`crate::grip::holding`]) knows them better:
-//! forces that push, within the cone of friction, that balance the part's weight and inertia. So the part is cut free: its
-//! joints go, the contact forces act on the jaws instead, each at its point of the lever's face, and the part's mass is in
-//! them and nowhere else. What is left is the mechanism of the free state in the pose in which its levers fit the part. It
-//! is statically determinate where the free state is, and its drive bears what the grip asks of it: by virtual work, the
-//! sum of the lever moments times the levers' turn by travel of the drive.
+//! In a state that has the grip's contacts, there are two descriptions of them. As joints they are bilateral and
+//! without friction: they pull as well as push, and move freely in the directions that friction holds. With the
+//! clamping force as a self-stress, they leave the reactions undetermined. The grip's cone program
+//! ([`crate::grip::holding`]) describes them better: forces that push, within the friction cone, and balance the part's
+//! weight and inertia.
 //!
-//! A state without the contacts has no part, and no load from the grip. Links that have masses are pulled by the case's
-//! gravity less acceleration, in place of the stated gravity; without one they are weightless, as ever. The safety factor
-//! is on the part alone.
+//! So the part is cut free. Its joints are removed, and the contact forces act on the jaws instead, each at its point
+//! of the lever's face. The part's mass is included in them and nowhere else. The remainder is the mechanism of the
+//! free state in the pose in which its levers fit the part. It is statically determinate if the free state is, and its
+//! drive bears the effort that the grip requires. By virtual work, this is the sum of the lever moments times the
+//! levers' turn per travel of the drive.
 //!
-//! Axes: the grip's x, y, z are found from the points of contacts and lever joints, which must be where the grip's figures
-//! have them at the nominal diameter.
+//! A state without the contacts has no part, and no load from the grip. Links with masses are loaded by the case's
+//! gravity less acceleration, which replaces the stated gravity. Links without masses are weightless, as always. The
+//! safety factor applies only to the part.
+//!
+//! Axes: the grip's x, y, z are derived from the points of contacts and lever joints. These must agree with the grip's
+//! figures at the nominal diameter.
 
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
@@ -30,16 +33,16 @@ use crate::motion::follow::{Follower, slides};
 use crate::motion::pose::Pose;
 use thiserror::Error;
 
-/// Points of the file may be this fraction of the lever's length from where the grip's figures have them.
+/// Maximum deviation of points in the file from the grip's figures, as a fraction of the lever's length.
 const PLACED: f64 = 1e-6;
-/// Turns of a lever nearer than this to the wanted one are it. `[rad]`
+/// Tolerance of the turn of a lever. `[rad]`
 const TURNED: f64 = 1e-9;
 
-/// Why a grip's forces cannot be brought onto its mechanism.
+/// Reason why a grip's forces cannot be applied to its mechanism.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum JawError {
-    /// The geometry has no numbers.
+    /// The geometry has no numerical value.
     #[error(transparent)]
     Exact(#[from] ExactError),
     /// The lever's figures are out of range.
@@ -48,7 +51,7 @@ pub enum JawError {
     /// The nominal part cannot be reached, so that there is nothing to compare the file's pose with.
     #[error("[workload.grip]: the nominal diameter cannot be held: {0}")]
     Nominal(Unholdable),
-    /// A joint is not where the figures have it.
+    /// A joint is not at the position given by the figures.
     #[error(
         "joint \"{joint}\" is at ({:.4}, {:.4}) {unit} from the middle of the lever joints, along the gripper and across, and \
          [workload.grip] has it at ({:.4}, {:.4}); make the joints' points and the figures agree at the nominal diameter",
@@ -57,19 +60,19 @@ pub enum JawError {
     Misplaced {
         /// The joint.
         joint: String,
-        /// Where it is, in the file's unit.
+        /// Its position, in the file's unit.
         is: [f64; 2],
-        /// Where the figures have it.
+        /// Its position by the figures.
         wanted: [f64; 2],
         /// The file's unit.
         unit: &'static str,
     },
-    /// The lever turns about something else.
+    /// The lever turns about another axis.
     #[error(
         "lever joint \"{0}\" must be a hinge along the part: a revolute joint, its axis across the plane of the contacts"
     )]
     NotAHinge(String),
-    /// The mechanism does not go there.
+    /// The mechanism cannot reach the pose.
     #[error(
         "the mechanism cannot turn lever joint \"{joint}\" by {degrees:.3}° to fit a part of {diameter} m; look at `ozols analyze --stroke`"
     )]
@@ -83,10 +86,10 @@ pub enum JawError {
     },
 }
 
-/// A mechanism with the part cut free, ready for its contact forces.
+/// A mechanism with the part cut free, prepared for its contact forces.
 #[derive(Debug, Clone)]
 pub struct Gripping {
-    /// The mechanism, the joints of the part in no state.
+    /// The mechanism, with the joints of the part in no state.
     pub mechanism: Mechanism,
     /// The state with the contacts.
     pub state: StateId,
@@ -94,7 +97,7 @@ pub struct Gripping {
     pub study: Study,
     /// The contacts: upper far, upper near, lower far, lower near.
     pub contacts: [JointId; 4],
-    /// The links they touch, upper and lower lever.
+    /// The links they touch: upper and lower lever.
     pub levers: [LinkId; 2],
     joints: [JointId; 2],
     axes: Axes,
@@ -124,7 +127,7 @@ impl Axes {
         [dot(d, self.unit[0]), dot(d, self.unit[1])]
     }
 
-    /// Refuses a joint that is farther than `most` from where it is wanted. `[m]`
+    /// Returns an error if a joint is farther than `most` from its expected position. `[m]`
     fn check(
         &self,
         m: &Mechanism,
@@ -147,7 +150,7 @@ impl Axes {
     }
 }
 
-/// The mechanism round a part of one diameter.
+/// The mechanism around a part of one diameter.
 #[derive(Debug, Clone)]
 pub struct Fit {
     /// Position of the first drive since the pose of the file: `[rad]`, or the file's unit.
@@ -156,7 +159,7 @@ pub struct Fit {
     pub pose: Pose,
 }
 
-/// The grip that loads a state: it names contacts, and the state has them.
+/// Returns the grip that loads a state: it names contacts, and the state has them.
 #[must_use]
 pub fn grip_of(m: &Mechanism, state: StateId) -> Option<(&GripSpec, [JointId; 4], [JointId; 2])> {
     let spec = m.loads.grip.as_ref()?;
@@ -169,7 +172,7 @@ pub fn grip_of(m: &Mechanism, state: StateId) -> Option<(&GripSpec, [JointId; 4]
         .then_some((spec, contacts, levers))
 }
 
-/// The mechanism without the joints of a link: they are in no state, and ids stay as they are.
+/// Returns the mechanism without the joints of a link. They are in no state, and ids stay unchanged.
 fn cut_free(m: &Mechanism, part: LinkId) -> Mechanism {
     let mut out = m.clone();
     for joint in out.joints.iter_mut().filter(|j| j.links.contains(&part)) {
@@ -194,7 +197,7 @@ fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     (size > 0.0).then(|| a.map(|x| x / size))
 }
 
-/// The gripper's axes, from the contacts and the hinges of the levers along `hinge`.
+/// Returns the gripper's axes, from the contacts and the hinges of the levers along `hinge`.
 fn axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Option<Axes> {
     let across = |v: [f64; 3]| {
         let along = dot(v, hinge);
@@ -213,10 +216,10 @@ fn axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Opti
 }
 
 impl Gripping {
-    /// The mechanism of a state with the part cut free; `None` where no grip loads the state.
+    /// Creates the mechanism of a state with the part cut free. Returns `None` if no grip loads the state.
     ///
     /// # Errors
-    /// A mechanism whose points do not agree with the grip's figures.
+    /// Returns an error if points of the mechanism do not agree with the grip's figures.
     ///
     /// # Complexity
     /// That of [`study`].
@@ -227,10 +230,10 @@ impl Gripping {
         }
     }
 
-    /// The same for a study that is there already.
+    /// Creates the mechanism for an existing study.
     ///
     /// # Errors
-    /// As [`Gripping::new`].
+    /// Returns an error in the same cases as [`Gripping::new`].
     pub(crate) fn of_study(
         m: &Mechanism,
         state: StateId,
@@ -245,7 +248,7 @@ impl Gripping {
             Some(Err(why)) => return Err(JawError::Nominal(why)),
             None => return Ok(None),
         };
-        // One link of the contacts is the part, which all share; the others are the levers.
+        // One link of the contacts is the part, which all share. The others are the levers.
         let [a, b] = m.joints[contacts[0]].links;
         let part = if m.joints[contacts[2]].links.contains(&a) {
             a
@@ -285,10 +288,10 @@ impl Gripping {
         }))
     }
 
-    /// The mechanism with its levers round a part, from the pose of the file on its branch.
+    /// Returns the mechanism with its levers around a part, moved from the pose of the file on its branch.
     ///
     /// # Errors
-    /// A lever that is no hinge, or does not go there.
+    /// Returns an error if a lever is not a hinge, or cannot reach the pose.
     pub fn fit(&self, row: &DiameterRow) -> Result<Fit, JawError> {
         let m = &self.mechanism;
         let there = row.pose.as_ref().map_or(0.0, |p| p.turn);
@@ -331,8 +334,8 @@ impl Gripping {
         })
     }
 
-    /// The loads of the mechanism in a diameter's hardest case: those of the file, and the part's forces on the jaws;
-    /// `None` where the part is not held. The drives stand still.
+    /// Returns the loads of the mechanism in a diameter's worst case: those of the file, and the part's forces on the
+    /// jaws. Returns `None` if the part is not held. The drives are at rest.
     #[must_use]
     pub fn loads(&self, row: &DiameterRow) -> Option<Loads> {
         let (hardest, fitted) = (row.hardest.as_ref()?, row.pose.as_ref()?);
@@ -359,7 +362,7 @@ impl Gripping {
             out.forces.push(ExternalForce {
                 link: self.levers[home.lever],
                 point: exact(point.map(|x| x / self.mechanism.length_unit.metres))?,
-                // The part's force on the jaw is less the jaw's on the part.
+                // The part's force on the jaw is the opposite of the jaw's on the part.
                 force: exact(self.axes.direction([-force[0], -force[1], -f.axial]))?,
                 range: None,
                 states: None,
@@ -369,7 +372,7 @@ impl Gripping {
     }
 }
 
-/// The column of a joint that is a hinge and nothing else.
+/// Returns the column of a joint that is only a hinge.
 fn hinge(pose: &Pose, joint: JointId) -> Option<usize> {
     let mut own = (0..pose.columns.len()).filter(|&c| pose.columns[c].joint == joint);
     match (own.next(), own.next()) {
@@ -378,7 +381,7 @@ fn hinge(pose: &Pose, joint: JointId) -> Option<usize> {
     }
 }
 
-/// The point of a lever's face at a distance from the vertex, the lever as it holds the nominal part.
+/// Returns the point of a lever's face at a distance from the vertex, with the lever as it holds the nominal part.
 fn on_face(nominal: &contact::TouchingPose, c: &Contact, along: f64) -> [f64; 3] {
     let vertex = nominal.vertices[c.lever];
     [

@@ -1,33 +1,33 @@
-//! Force arms of a clamping lever with a V-prism, in closed form.
+//! Lever arms of the forces on a clamping lever with a V-block, in closed form.
 
 use serde::Serialize;
 use std::f64::consts::PI;
 use thiserror::Error;
 
-/// A clamping lever whose end carries a V-prism. `[Pavlenko & Godunko 2010]`, fig. 1.
+/// A clamping lever with a V-block at its end. `[Pavlenko & Godunko 2010]`, fig. 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Lever {
-    /// L, from the pivot to the vertex of the prism. `[m]`
+    /// L, from the pivot to the vertex of the V-block. `[m]`
     pub length: f64,
-    /// α, between the faces of the prism. `[rad]`
+    /// α, between the faces of the V-block. `[rad]`
     pub prism_angle: f64,
     /// γ, between the lever and the near face. `[rad]`
     pub mounting_angle: f64,
 }
 
-/// Why there is no such lever.
+/// Reason why there is no such lever.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LeverError {
-    /// Not a length.
+    /// The value is not a length.
     #[error("the lever length is {0} m; give a positive length")]
     Length(f64),
-    /// Flat or folded faces.
+    /// The faces are flat or folded.
     #[error(
         "the prism angle is {0} degrees; give one above 0 and below 180, where the faces form a V"
     )]
     PrismAngle(f64),
-    /// Beyond the lever.
+    /// The angle is beyond the lever.
     #[error("the mounting angle is {0} degrees; give one from 0 to below 180")]
     MountingAngle(f64),
 }
@@ -50,18 +50,18 @@ pub struct Arms {
 }
 
 impl Lever {
-    /// A lever with angles in their ranges.
+    /// Creates a lever with angles in their ranges.
     ///
     /// # Units
     /// `[m]`, `[rad]`.
     ///
     /// # Errors
-    /// A length that is not positive, α outside (0, 180°), γ outside [0, 180°).
+    /// Returns an error if the length is not positive, α is outside (0, 180°), or γ is outside [0, 180°).
     pub fn new(length: f64, prism_angle: f64, mounting_angle: f64) -> Result<Lever, LeverError> {
         if !(length > 0.0 && length.is_finite()) {
             return Err(LeverError::Length(length));
         }
-        // An angle this near its limit is the limit, written in decimals.
+        // An angle this near to its limit is the limit, written in decimals.
         let open = |x: f64| x > 1e-9 && x < PI - 1e-9;
         if !open(prism_angle) {
             return Err(LeverError::PrismAngle(prism_angle.to_degrees()));
@@ -76,9 +76,9 @@ impl Lever {
         })
     }
 
-    /// The arms of the clamping forces on a part of diameter D.
+    /// Returns the arms of the clamping forces on a part of diameter D.
     ///
-    /// They do not depend on how far the lever has turned: a force normal to a face has its arm along that face.
+    /// They do not depend on the turn of the lever: a force normal to a face has its arm along that face.
     ///
     /// # Units
     /// `[m]`
@@ -100,34 +100,34 @@ impl Lever {
         }
     }
 
-    /// Distance of the contacts from the vertex along the faces, D/2 cot(α/2). `[m]`
+    /// Returns the distance of the contacts from the vertex along the faces, D/2 cot(α/2). `[m]`
     #[must_use]
     pub fn face_distance(&self, diameter: f64) -> f64 {
         diameter / 2.0 / (self.prism_angle / 2.0).tan()
     }
 
-    /// Distance of the part's centre from the vertex along the bisector, D/2 / sin(α/2). `[m]`
+    /// Returns the distance of the part's centre from the vertex along the bisector, D/2 / sin(α/2). `[m]`
     #[must_use]
     pub(crate) fn centre_distance(&self, diameter: f64) -> f64 {
         diameter / 2.0 / (self.prism_angle / 2.0).sin()
     }
 
-    /// θ = γ + α/2, between the lever and the bisector of its prism. `[rad]`
+    /// Returns θ = γ + α/2, the angle between the lever and the bisector of its V-block. `[rad]`
     #[must_use]
     pub(crate) fn bisector_angle(&self) -> f64 {
         self.mounting_angle + self.prism_angle / 2.0
     }
 
-    /// Signed distance of the pivot from the gripper's axis at which this diameter is the nominal one, that is, both
-    /// bisectors lie on one line through the part's centre: D/2 / sin(α/2) - L cos(γ + α/2). Its size is a; it is negative
-    /// where the levers cross. `[m]`
+    /// Returns the signed distance of the pivot from the gripper's axis at which this diameter is the nominal one.
+    /// There both bisectors lie on one line through the part's centre: D/2 / sin(α/2) - L cos(γ + α/2). Its size is a;
+    /// it is negative if the levers cross. `[m]`
     #[must_use]
     pub fn nominal_pivot(&self, diameter: f64) -> f64 {
         self.centre_distance(diameter) - self.length * self.bisector_angle().cos()
     }
 
-    /// The diameter that is nominal for a pivot at this signed distance from the axis; not positive where there is none.
-    /// `[m]`
+    /// Returns the diameter that is nominal for a pivot at this signed distance from the axis. It is not positive if
+    /// there is none. `[m]`
     #[must_use]
     pub fn nominal_diameter(&self, pivot: f64) -> f64 {
         2.0 * (pivot + self.length * self.bisector_angle().cos()) * (self.prism_angle / 2.0).sin()

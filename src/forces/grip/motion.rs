@@ -1,7 +1,7 @@
-//! The clamping force along a motion: for each pose and acceleration of a programme the least that holds.
+//! The clamping force along a motion: the smallest that holds, for each pose and acceleration of a programme.
 //!
-//! [`study`](crate::grip::clamping::study) asks for the hardest case alone, and a gripper that always closes with that force
-//! marks soft parts; one whose force follows the motion closes harder only where it must.
+//! [`study`](crate::grip::clamping::study) only considers the worst case. A gripper that always closes with that force
+//! marks soft parts. One whose force follows the motion closes harder only when necessary.
 
 use crate::grip::clamping::{DiameterRow, HoldVerdict, verdict};
 use crate::grip::holding::PartWrench;
@@ -9,42 +9,42 @@ use crate::grip::{Grip, effort};
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use thiserror::Error;
 
-/// Why a motion cannot be followed.
+/// Reason why a motion cannot be followed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// Nothing to hold.
+    /// There is no load to hold.
     #[error("no load is stated; give [workload.grip] a mass and friction before a motion")]
     NoLoad,
-    /// The attitude is open.
+    /// The orientation is undetermined.
     #[error(
         "step {0} of the motion needs gravity in the gripper's axes, columns gx, gy and gz, since the file has it in any direction"
     )]
     Gravity(usize),
-    /// Not one of the diameters studied.
+    /// The part is not one of the diameters studied.
     #[error(
         "step {0} of the motion has a part of {1} m, which is not one of the diameters studied"
     )]
     Diameter(usize, f64),
 }
 
-/// A step of a motion and what it takes.
+/// A step of a motion and its required effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepTaken {
     /// The step.
     pub of: MotionStep,
-    /// The part. `[m]`
+    /// Diameter of the part. `[m]`
     pub diameter: f64,
     /// Gravity less acceleration. `[m/s²]`
     pub pull: [f64; 3],
-    /// What comes of it; nothing where this part cannot be held whatever the forces.
+    /// The verdict, or `None` if this part cannot be held by any forces.
     pub verdict: Option<HoldVerdict>,
-    /// What one drive of both levers takes, `[N]` or `[N·m]`, and whether it slides.
+    /// Effort of one drive of both levers, `[N]` or `[N·m]`, and whether it slides.
     pub effort: Option<(f64, bool)>,
 }
 
 impl StepTaken {
-    /// The least drive moment per lever, where it holds. `[N·m]`
+    /// Returns the smallest drive moment per lever, if the part is held. `[N·m]`
     #[must_use]
     pub fn drive(&self) -> Option<f64> {
         match &self.verdict {
@@ -54,17 +54,17 @@ impl StepTaken {
     }
 }
 
-/// The least clamping at every step of a motion. `grip` is the study of the same specification, with every diameter of the
-/// motion among its own.
+/// Returns the smallest clamping at every step of a motion. `grip` is the study of the same specification, and includes
+/// every diameter of the motion.
 ///
 /// # Units
 /// SI.
 ///
 /// # Guarantee
-/// Step by step that of [`hold`](crate::grip::holding::hold); nothing is said of what lies between two steps.
+/// For each step that of [`hold`](crate::grip::holding::hold); nothing is stated about times between two steps.
 ///
 /// # Errors
-/// [`MotionError`].
+/// Returns a [`MotionError`].
 pub fn along(
     spec: &GripSpec,
     grip: &Grip,

@@ -1,8 +1,9 @@
-//! The greatest load in a direction that faces resist: a cone programme, and what its answer proves whatever the solver says of it.
+//! The largest load in a direction that faces resist: a cone program, and bounds proven by its solution independent of
+//! the solver's status.
 //!
-//! The forces found are put within their cones, and what then is missing of balance is measured: they are a load from below. The
-//! multipliers are a motion of part and jaws that does no work on what has no limit; the most that a normal force of 1 works on it
-//! is, over what the load works, a load from above.
+//! The forces found are moved into their cones, and the residual of the balance is measured. They are a lower bound of
+//! the load. The multipliers are a motion of part and jaws that does no work on unlimited forces. The largest work of a
+//! normal force of 1 on it, over the work of the load, is an upper bound.
 
 use crate::geom::vector::{add, cross, length, scale};
 use crate::grip::clamped_part::{ClampedPart, LooseMotion};
@@ -15,40 +16,41 @@ use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroC
 /// Work below this is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A load that is just resisted, from below and above.
+/// A load that is just resisted, with lower and upper bound.
 #[derive(Debug, Clone)]
 pub(super) struct Resisted {
-    /// So much is resisted, but for `left`; the cap where it is reached.
+    /// Lower bound, except for `left`; the cap if it is reached.
     pub(super) least: f64,
-    /// No more is.
+    /// Upper bound.
     pub(super) most: f64,
-    /// What is left of balance at the forces found.
+    /// Residual of the balance for the forces found.
     pub(super) left: f64,
-    /// Normal of the set of loads resisted where this one ends, (moment over the part's size; force) about its middle.
+    /// Normal of the set of resisted loads at its boundary in this direction, (moment over the part's size; force)
+    /// about its middle.
     pub(super) normal: Six,
 }
 
 impl Resisted {
-    /// Whether both bounds are one number, to a part of `tie` of it.
+    /// Returns true if both bounds agree to a relative difference of `tie`.
     pub(super) fn agrees(&self, tie: f64) -> bool {
         self.most - self.least <= tie * self.most && self.left <= tie * self.most
     }
 }
 
-/// A point that presses: its columns.
+/// A pressing point, with its columns.
 struct Point {
     normal: usize,
     /// Coefficient of friction, whose two columns come after the normal.
     friction: Option<f64>,
 }
 
-/// The forces that faces can put on a part, by the work of each on the motions.
+/// The forces that faces can exert on a part, by the work of each on the motions.
 pub(super) struct Forces<'a> {
     part: &'a ClampedPart,
     points: Vec<Point>,
     /// Work on each motion.
     columns: Vec<Vec<f64>>,
-    /// Orthonormal, spanning the work of columns without limit.
+    /// Orthonormal vectors that span the work of unlimited columns.
     unlimited: Vec<Vec<f64>>,
 }
 
@@ -56,7 +58,7 @@ fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// `a` less what it has along orthonormal vectors.
+/// Returns `a` without its parts along orthonormal vectors.
 fn across(a: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
     let mut out = a.to_vec();
     for q in basis {
@@ -69,7 +71,7 @@ fn across(a: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
 }
 
 impl<'a> Forces<'a> {
-    /// The forces of faces on a part.
+    /// Creates the forces of faces on a part.
     pub(super) fn new(part: &'a ClampedPart, faces: &[JawFace]) -> Forces<'a> {
         let mut out = Forces {
             part,
@@ -110,10 +112,10 @@ impl<'a> Forces<'a> {
         self.columns.push(work);
     }
 
-    /// The greatest load along `d` up to `cap`, with normal forces of 1 in all.
+    /// Returns the largest load along `d` up to `cap`, with normal forces of 1 in total.
     ///
     /// # Errors
-    /// Where the solver refuses the programme.
+    /// Returns an error if the solver rejects the program.
     pub(super) fn resist(
         &self,
         d: &Six,
@@ -138,7 +140,7 @@ impl<'a> Forces<'a> {
         }
         let size = inner(&y, &y).sqrt() * inner(&load, &load).sqrt();
         let y = across(&y, &self.unlimited);
-        // Of a load that is resisted without limit rounding alone is left.
+        // For a load that is resisted without limit, only rounding is left.
         let most = match inner(&y, &load) {
             work if work.abs() > TOLERANCE * size => self.above(&y, work).min(cap),
             _ => cap,
@@ -153,10 +155,10 @@ impl<'a> Forces<'a> {
         })
     }
 
-    /// The programme of the greatest load, and the motions whose balance is written in it.
+    /// Returns the program of the largest load, and the motions whose balance it contains.
     fn programme(&self, load: &[f64], cap: f64) -> (ConeProgramme, Vec<usize>) {
         let mut programme = ConeProgramme::default();
-        // A motion that neither load nor contacts work on says nothing, and rounding must not speak for it.
+        // A motion on which neither load nor contacts do work gives no information, and rounding must not.
         let mut worked = Vec::new();
         for (i, own) in load.iter().enumerate() {
             let others = self.columns.iter().enumerate();
@@ -184,8 +186,8 @@ impl<'a> Forces<'a> {
         (programme, worked)
     }
 
-    /// The part's motion that multipliers of the motions make up, (turn times the size; shift of the middle): what the load works on
-    /// most for what the contacts can give.
+    /// Returns the part's motion formed by multipliers of the motions, (turn times the size; shift of the middle). It
+    /// maximises the work of the load relative to the work of the contacts.
     fn normal(&self, multipliers: &[f64]) -> Six {
         let part = self.part;
         let mut twist = [0.0; 6];
@@ -198,7 +200,7 @@ impl<'a> Forces<'a> {
         [turn[0], turn[1], turn[2], shift[0], shift[1], shift[2]]
     }
 
-    /// The load of the forces found, put within their cones, and what is left of balance.
+    /// Returns the load of the forces found, moved into their cones, and the residual of the balance.
     fn below(&self, x: &[f64], load: &[f64]) -> (f64, f64) {
         if x.iter().any(|x| !x.is_finite()) {
             return (0.0, f64::INFINITY);
@@ -226,7 +228,7 @@ impl<'a> Forces<'a> {
         (x[0].max(0.0), inner(&left, &left).sqrt())
     }
 
-    /// The load from above by a motion that the load works `power` on.
+    /// Returns the upper bound by a motion on which the load has the given `power`.
     fn above(&self, y: &[f64], power: f64) -> f64 {
         let y: Vec<f64> = y.iter().map(|y| y * power.signum()).collect();
         let work = |k: usize| inner(&self.columns[k], &y);
@@ -241,7 +243,7 @@ impl<'a> Forces<'a> {
     }
 }
 
-/// A load about the part's middle, moments over its size, as a wrench of the geometry.
+/// Converts a load about the part's middle, with moments over its size, to a wrench of the geometry.
 fn about_middle(part: &ClampedPart, d: &Six) -> Six {
     let moment = scale([d[0], d[1], d[2]], part.size);
     wrench(part.middle, [d[3], d[4], d[5]], moment)
