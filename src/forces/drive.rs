@@ -1,10 +1,11 @@
-//! A torsional drive of two discs: its bar, a swing, a programme of swings, its design, and samples of it out of true.
+//! A torsional drive of two discs: its bar, a swing, a programme of swings, its design, and samples of inaccurate
+//! drives.
 //!
 //! [`driving::drive`] does all of it.
 //!
-//! The shares of drives out of true whose swings end in their latches stand here. What decides that is drawn: the bar's stiffness,
-//! inertia and losses of each disc, the cam's work and where it begins, the spacing of the grooves and how far short of them a latch
-//! still catches.
+//! This module computes the shares of inaccurate drives whose swings end in their latches. The quantities that decide
+//! this are drawn at random: the bar's stiffness, and inertia and losses of each disc. Others are the cam's work and
+//! its start, the spacing of the grooves, and the distance from them at which a latch still catches.
 
 pub mod cam;
 pub mod driving;
@@ -19,20 +20,20 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 
-/// What became of samples.
+/// Results of the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunShares {
-    /// By how much each quantity is out at most, as a share of itself.
+    /// Maximum deviation of each quantity, as a share of the quantity.
     pub tolerance: f64,
-    /// The discs that the programme lets go, in order.
+    /// The discs that the programme releases, in order.
     pub discs: Vec<usize>,
     /// The long run of each sample.
     pub long_runs: Vec<Endurance>,
 }
 
 impl Module {
-    /// The drive with every quantity out by up to a share `tolerance` of itself, each evenly and by itself; the same `seed` and
-    /// `n` give the same drive.
+    /// Returns the drive with every quantity off by up to a share `tolerance` of itself, each uniformly and
+    /// independently. The same `seed` and `n` give the same drive.
     #[must_use]
     pub fn out_of_true(&self, tolerance: f64, seed: u64, n: u64) -> Module {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -57,7 +58,7 @@ impl Module {
             },
             feed: {
                 let energy = out(self.feed.energy);
-                // One cam is cut in one setting: its pieces keep to each other.
+                // A cam is cut in one setting, so its pieces keep their relative positions.
                 let angles = out(1.0);
                 let pieces = self.feed.pieces.iter();
                 Feed {
@@ -69,10 +70,11 @@ impl Module {
     }
 }
 
-/// The long run of `samples` drives out of true; the same seed gives the same answer, and more samples begin with the fewer.
+/// Returns the long run of `samples` inaccurate drives. The same seed gives the same result, and a larger number of
+/// samples begins with the smaller one.
 ///
 /// # Errors
-/// A sample that is damped so that it creeps.
+/// Returns an error if a sample is damped so strongly that it creeps.
 ///
 /// # Complexity
 /// As [`Module::endurance`] for each sample.
@@ -98,7 +100,7 @@ pub fn shares(
 }
 
 impl RunShares {
-    /// The swings latched before the first failure of each sample that fails.
+    /// Returns the number of swings latched before the first failure, for each sample that fails.
     pub fn failures(&self) -> impl Iterator<Item = usize> {
         self.long_runs.iter().filter_map(|r| match r {
             Endurance::Fails { after } => Some(*after),
@@ -106,7 +108,8 @@ impl RunShares {
         })
     }
 
-    /// How many swings of the programme, run once by each sample, end in a latch; none does after a failure.
+    /// Returns the number of swings of the programme, run once by each sample, that end in a latch. No swing does after
+    /// a failure.
     #[must_use]
     pub fn latched(&self) -> usize {
         let (once, all) = (self.discs.len(), self.long_runs.len());
@@ -117,14 +120,14 @@ impl RunShares {
                 .sum::<usize>()
     }
 
-    /// How many samples end the programme run once.
+    /// Returns the number of samples that complete the programme once.
     #[must_use]
     pub fn complete(&self) -> usize {
         let failed = self.failures().filter(|n| *n < self.discs.len()).count();
         self.long_runs.len() - failed
     }
 
-    /// How many samples repeat the programme without end.
+    /// Returns the number of samples that repeat the programme without end.
     #[must_use]
     pub fn lasting(&self) -> usize {
         let lasts = |r: &&Endurance| matches!(r, Endurance::Lasts { .. });

@@ -1,9 +1,11 @@
-//! The cam that feeds a swing: its profile from the swing and the spring, and what its electromagnet does.
+//! The cam that feeds a swing: its profile, derived from the swing and the spring, and the action of its electromagnet.
 //!
-//! The follower's roller goes in and out on a line through the disc's axis. While the disc swings from one groove to the next
-//! the electromagnet first holds the follower lifted; let go where the push begins, it is pressed on the flank by its spring
-//! and falls by the stroke S up to the groove. The flank is such that the spring gives the disc the moments that the simulation
-//! has: what the spring has given at the turn φ is the same part of its energy as theirs up to φ of all their work.
+//! The follower's roller moves in and out on a line through the disc's axis. While the disc swings from one groove to
+//! the next, the electromagnet first holds the follower lifted. It is released at the start of the push. Its spring
+//! then presses it on the flank, and it falls by the stroke S until it reaches the groove.
+//!
+//! The flank is shaped so that the spring gives the disc the moments of the simulation. The share of the spring's
+//! energy given up to the turn φ equals the share of the work of these moments up to φ.
 
 use crate::drive::programme::{Event, Run};
 use crate::drive::swing::Feed;
@@ -16,57 +18,58 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 pub struct Cam {
     /// φ0. `[rad]`
     pub half_swing: f64,
-    /// What the spring gives along the flank, from the middle of the swing.
+    /// Work of the spring along the flank, from the middle of the swing.
     pub feed: Feed,
     /// S. `[m]`
     pub stroke: f64,
     /// ψ0.
     pub mounting: f64,
-    /// From the axis to the roller's centre where the follower is lifted. `[m]`
+    /// Distance of the roller's centre from the axis when the follower is lifted. `[m]`
     pub radius: f64,
-    /// Of the roller. `[m]`
+    /// Radius of the roller. `[m]`
     pub roller: f64,
 }
 
-/// A point of the roller's path, by the turn from the middle between two grooves.
+/// A point of the roller's path, at a turn from the middle between two grooves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct ProfilePoint {
     /// The turn. `[rad]`
     #[serde(skip)]
     pub turn: f64,
-    /// How far the follower has fallen. `[m]`
+    /// Distance that the follower has fallen. `[m]`
     #[serde(skip)]
     pub fall: f64,
     /// The roller's centre. `[m]`
     pub pitch: [f64; 2],
 }
 
-/// The profile round a disc.
+/// The profile around a disc.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Profile {
     /// Angles of the grooves on the disc. `[rad]`
     pub grooves: Vec<f64>,
-    /// Whether a whole number of swings makes a turn, so that stepwise rotation finds grooves for ever.
+    /// Whether a whole number of swings makes a full turn, so that stepwise rotation never runs out of grooves.
     pub closes: bool,
-    /// Whether swings either way are fed.
+    /// Whether swings in both directions are fed.
     pub both_ways: bool,
-    /// Greatest angle between the flank's normal and the follower's way; a right angle where the spring ends without force. `[rad]`
+    /// Largest angle between the flank's normal and the follower's direction; a right angle if the spring ends without
+    /// force. `[rad]`
     pub pressure_angle: f64,
-    /// Least radius of curvature of the roller's path where it bulges outwards, at most that of the lifted path. A larger
-    /// roller would cut the flank away. `[m]`
+    /// Smallest radius of curvature of the convex parts of the roller's path, at most that of the lifted path. A larger
+    /// roller would undercut the flank. `[m]`
     pub least_curvature: f64,
-    /// In order of the turn, `grooves` times the points of one swing, the first of each in a groove.
+    /// Points in order of the turn: `grooves` times the points of one swing, the first of each in a groove.
     #[serde(rename = "pitch")]
     pub points: Vec<ProfilePoint>,
-    /// What the roller rolls on, by the angle round the axis: no point of it nearer to any place of the roller than its radius.
-    /// The roller's own round in the grooves. `[m]`
+    /// The contour that the roller rolls on, by the angle around the axis. None of its points is nearer to any position
+    /// of the roller than its radius. In the grooves it is the roller's own arc. `[m]`
     #[serde(rename = "profile")]
     pub outline: Vec<[f64; 2]>,
 }
 
 impl Cam {
-    /// Pieces of the flank: where each begins and ends, and what part of the spring's energy it takes by the turn.
+    /// Returns the pieces of the flank: start and end of each, and its share of the spring's energy per turn.
     fn pieces(&self) -> Vec<([f64; 2], f64)> {
         let shape = Feed {
             energy: 1.0,
@@ -75,24 +78,24 @@ impl Cam {
         shape.moments(self.half_swing)
     }
 
-    /// Part of the spring's energy given at a turn from the middle of the swing.
+    /// Returns the share of the spring's energy given up to a turn from the middle of the swing.
     fn part(&self, turn: f64) -> f64 {
         let given = |([from, to], rate): ([f64; 2], f64)| rate * (turn.clamp(from, to) - from);
         let part: f64 = self.pieces().into_iter().map(given).sum();
         part.clamp(0.0, 1.0)
     }
 
-    /// How far the follower has fallen at a turn from the middle of a swing. `[m]`
+    /// Returns the distance that the follower has fallen at a turn from the middle of a swing. `[m]`
     ///
-    /// Energy: (1 + ψ0)² - (1 + ψ0 - x/S)² = q (1 + 2ψ0), where the part q of it is given.
+    /// Energy: (1 + ψ0)² - (1 + ψ0 - x/S)² = q (1 + 2ψ0), if the share q of it is given.
     #[must_use]
     pub fn fall(&self, turn: f64) -> f64 {
         let (whole, psi) = (1.0 + 2.0 * self.mounting, 1.0 + self.mounting);
         self.stroke * (psi - (psi * psi - self.part(turn) * whole).max(0.0).sqrt())
     }
 
-    /// How fast it falls, by the turn `[m/rad]`; without bound at the end of a spring that ends without force. Where pieces of the
-    /// flank meet, that of the one which begins.
+    /// Returns the rate of the fall, per turn `[m/rad]`. It is unbounded at the end of a spring that ends without
+    /// force. At the junction of two pieces it is that of the later one.
     #[must_use]
     pub fn slope(&self, turn: f64) -> f64 {
         let begun = self
@@ -102,7 +105,7 @@ impl Cam {
         begun.map_or(0.0, |(_, rate)| self.slope_at(turn, rate))
     }
 
-    /// How fast it falls at a turn where the spring's energy is taken at such a rate.
+    /// Returns the rate of the fall at a turn, given the rate at which the spring's energy is released.
     fn slope_at(&self, turn: f64, rate: f64) -> f64 {
         if rate == 0.0 {
             return 0.0;
@@ -112,11 +115,11 @@ impl Cam {
         self.stroke * whole * rate / (2.0 * left)
     }
 
-    /// The profile, `per_swing` points from groove to groove.
+    /// Returns the profile, with `per_swing` points from groove to groove.
     ///
     /// # Sources
-    /// `[Klyuchkovskyi 1999]`: a cam with grooves on each disc, a spring-loaded roller follower; the law of the flank is left open
-    /// there, and is that of an even moment here.
+    /// `[Klyuchkovskyi 1999]`: a cam with grooves on each disc, a spring-loaded roller follower; the law of the flank
+    /// is left open there, and is that of a constant moment here.
     #[must_use]
     pub fn profile(&self, per_swing: u32) -> Profile {
         let (count, closes) = self.swings_a_turn();
@@ -144,7 +147,7 @@ impl Cam {
         }
     }
 
-    /// How many whole swings there are in a turn of the disc, and whether they make it up.
+    /// Returns the number of whole swings in a turn of the disc, and whether they fill the turn.
     fn swings_a_turn(&self) -> (u32, bool) {
         let swings = TAU / (2.0 * self.half_swing);
         let closes = (swings - swings.round()).abs() < 1e-9 * swings;
@@ -162,7 +165,7 @@ impl Cam {
         (count, closes)
     }
 
-    /// The greatest angle of pressure where pieces end, where they fall fastest.
+    /// Returns the largest pressure angle at the ends of pieces, where the fall is fastest.
     fn pressure_at_ends(&self) -> f64 {
         let ends = self.pieces().into_iter().map(|([_, to], rate)| {
             let last = self.slope_at(to, rate);
@@ -171,7 +174,7 @@ impl Cam {
         ends.fold(0.0, f64::max)
     }
 
-    /// The roller in a groove, the half of it towards the axis.
+    /// Returns the half of the roller in a groove that faces the axis.
     fn round(&self, [x, y]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
         let (inwards, roller) = ((-y).atan2(-x), self.roller);
         (0..=48).map(move |k| {
@@ -180,7 +183,7 @@ impl Cam {
         })
     }
 
-    /// Radius of curvature of the roller's path where it bulges outwards; without bound elsewhere.
+    /// Returns the radius of curvature of the roller's path if it is convex there; unbounded otherwise.
     fn curvature(&self, flank: f64, r: f64, dr: f64) -> f64 {
         let step = 1e-5 * self.half_swing;
         let corner = |x: &f64| (flank - x).abs() <= step;
@@ -199,12 +202,12 @@ impl Cam {
     }
 }
 
-/// The roller's path as it is traced, point by point.
+/// The roller's path during tracing, point by point.
 struct Trace<'c> {
     cam: &'c Cam,
     both_ways: bool,
     points: Vec<ProfilePoint>,
-    /// Where the roller touches the disc.
+    /// Points where the roller touches the disc.
     touched: Vec<[f64; 2]>,
     pressure_angle: f64,
     least_curvature: f64,
@@ -214,7 +217,7 @@ impl<'c> Trace<'c> {
     fn new(cam: &'c Cam) -> Trace<'c> {
         Trace {
             cam,
-            // A flank that begins before the middle leaves no room for one the other way.
+            // A flank that begins before the middle leaves no space for one in the other direction.
             both_ways: cam.feed.begins() >= 0.0,
             points: Vec::new(),
             touched: Vec::new(),
@@ -242,7 +245,8 @@ impl<'c> Trace<'c> {
             self.touched.extend(cam.round(pitch));
             return;
         }
-        // One way only, the lifted part begins beside the roller in the groove: a wall, which the roller is lifted over.
+        // In one direction only, the lifted part begins next to the roller in the groove: a wall, which the roller is
+        // lifted over.
         let beside = (cam.roller / (cam.radius - cam.stroke)).min(1.0).asin();
         if !both_ways && turn < cam.feed.begins() && cam.half_swing + turn <= 1.05 * beside {
             return;
@@ -255,9 +259,9 @@ impl<'c> Trace<'c> {
         self.least_curvature = self.least_curvature.min(cam.curvature(flank, r, dr));
     }
 
-    /// What the roller rolls on, by the angle round the axis.
+    /// Returns the contour that the roller rolls on, by the angle around the axis.
     fn outline(&self) -> Vec<[f64; 2]> {
-        // Where the roller's path has a corner outwards, flanks beyond their crossing would be cut away.
+        // At an outward corner of the roller's path, the flanks beyond their crossing would be cut away.
         let least = (self.cam.roller * (1.0 - 1e-6)).powi(2);
         let clear = |q: &[f64; 2]| {
             let far = |p: &ProfilePoint| (p.pitch[0] - q[0]).powi(2) + (p.pitch[1] - q[1]).powi(2);
@@ -270,15 +274,15 @@ impl<'c> Trace<'c> {
     }
 }
 
-/// A time in which the electromagnet of a disc is on. `[s]`
+/// An interval during which the electromagnet of a disc is on. `[s]`
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Pulse {
-    /// 0 or 1; told from 1.
+    /// 0 or 1; displayed as 1 or 2.
     #[serde(serialize_with = "from_one")]
     pub disc: usize,
-    /// At the release.
+    /// Time of the release.
     pub on: f64,
-    /// Where the push begins, or where the swing ends before it.
+    /// Start of the push, or the end of the swing if that is earlier.
     pub off: f64,
 }
 
@@ -286,24 +290,24 @@ fn from_one<S: Serializer>(disc: &usize, serializer: S) -> Result<S::Ok, S::Erro
     (disc + 1).serialize(serializer)
 }
 
-/// What the electromagnets do in a programme.
+/// Action of the electromagnets in a programme.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Magnet {
-    /// In order.
+    /// The pulses in order.
     pub pulses: Vec<Pulse>,
-    /// Against the spring when the roller leaves its groove, ψ0 c S. `[N]`
+    /// Force against the spring when the roller leaves its groove, ψ0 c S. `[N]`
     pub first_force: f64,
-    /// Against it when lifted, (1 + ψ0) c S; held until the pulse ends. `[N]`
+    /// Force against the spring when lifted, (1 + ψ0) c S; held until the pulse ends. `[N]`
     pub last_force: f64,
-    /// Work against the spring a swing, by (13). `[J]`
+    /// Work against the spring per swing, by (13). `[J]`
     pub energy_per_swing: f64,
-    /// That of a whole oscillation, two swings. `[J]`
+    /// Work in a whole oscillation, two swings. `[J]`
     pub energy_per_cycle: f64,
-    /// That of all pulses over the time of the programme. `[W]`
+    /// Work of all pulses over the duration of the programme. `[W]`
     pub mean_power: f64,
 }
 
-/// The electromagnets of a run with this spring.
+/// Returns the action of the electromagnets in a run with this spring.
 #[must_use]
 pub(crate) fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
     let swings = run.steps.iter().filter_map(|s| match &s.event {

@@ -1,4 +1,4 @@
-//! A torsional drive designed and run: bar, missing angle, cam spring, programme, and the motion it gives its payload.
+//! Design and run of a torsional drive: bar, missing angle, cam spring, programme, and the motion of its payload.
 
 use crate::drive::cam::{Cam, Magnet, Profile, magnet};
 use crate::drive::programme::{Endurance, Module, Run};
@@ -8,10 +8,10 @@ use crate::model;
 use crate::model::drive::{Damping, DriveSpec};
 use serde::Serialize;
 
-/// Lengths of bars that are chosen are multiples of this. `[m]`
+/// Step of the chosen lengths of bars. `[m]`
 pub(crate) const LENGTH_STEP: f64 = 1e-3;
 
-/// Where the damping of a simulation comes from.
+/// Source of the damping of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DampingFrom {
@@ -20,37 +20,37 @@ pub enum DampingFrom {
     Stated,
     /// The viscous damping that gives the missing angle.
     MissingAngle,
-    /// There is none.
+    /// There is no damping.
     None,
 }
 
-/// Points of a cam from groove to groove.
+/// Number of points of a cam from groove to groove.
 pub const PROFILE_POINTS: u32 = 180;
 
 /// The cam's spring by the formulas and by the simulation, its profile and its electromagnets.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CamDesign {
-    /// By equation (14).
+    /// The spring by equation (14).
     pub spring: CamSpring,
-    /// The one that brings the disc to its latch at rest, where any does.
+    /// The spring that brings the disc to its latch at rest, if there is one.
     pub needed: Option<CamSpring>,
-    /// The one that gives what is fed in this run.
+    /// The spring that gives the work fed in this run.
     pub fitted: CamSpring,
-    /// What the electromagnets do against that one.
+    /// The action of the electromagnets against the fitted spring.
     #[serde(rename = "electromagnet")]
     pub magnet: Magnet,
-    /// The profile, where the cam's and the roller's radius are stated.
+    /// The profile, if the cam's and the roller's radius are stated.
     pub profile: Option<Profile>,
 }
 
 /// The motion of a payload. SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PayloadMotion {
-    /// Greatest angular acceleration, p² φ0, at the ends of a swing. `[rad/s²]`
+    /// Largest angular acceleration, p² φ0, at the ends of a swing. `[rad/s²]`
     pub angular_acceleration: f64,
-    /// Greatest angular speed, p φ0, in its middle. `[rad/s]`
+    /// Largest angular speed, p φ0, in its middle. `[rad/s]`
     pub angular_speed: f64,
-    /// Greatest acceleration of a payload at its radius, in whatever direction. `[m/s²]`
+    /// Largest acceleration of a payload at its radius, in any direction. `[m/s²]`
     pub acceleration: Option<f64>,
 }
 
@@ -63,13 +63,13 @@ pub struct Design {
     pub stiffness: f64,
     /// Damping of the simulation.
     pub damping: Damping,
-    /// Where it comes from.
+    /// Source of the damping.
     pub damping_from: DampingFrom,
-    /// Δφ: measured, or that of the damping. `[rad]`
+    /// Δφ: measured, or derived from the damping. `[rad]`
     pub missing: f64,
     /// E_fr by (12). `[J]`
     pub friction_energy: f64,
-    /// The cam's work that brings the disc to its latch at rest; none does where it is stuck. `[J]`
+    /// The cam's work that brings the disc to its latch at rest, or `None` if it is stuck. `[J]`
     pub needed_feed: Option<f64>,
     /// The cam's work in the simulation. `[J]`
     pub feed: f64,
@@ -81,20 +81,20 @@ pub struct Design {
     pub module: Module,
     /// The programme run.
     pub run: Run,
-    /// What comes of it in the long run.
+    /// Result of the programme in the long run.
     pub endurance: Endurance,
 }
 
-/// What came of a drive.
+/// Result for a drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Driving {
     /// The bar's sizing.
     pub sizing: Sizing,
-    /// The rest, where there is a bar.
+    /// The design, if there is a bar.
     pub design: Option<Design>,
 }
 
-/// The bar that a specification asks for.
+/// Returns the requirements on the bar from a specification.
 #[must_use]
 pub(crate) fn wanted(spec: &DriveSpec) -> Wanted {
     Wanted {
@@ -110,8 +110,8 @@ pub(crate) fn wanted(spec: &DriveSpec) -> Wanted {
     }
 }
 
-/// Greatest size of the acceleration at radius r over a swing: the tangential p² φ r and the radial p² (φ0² - φ²) r; the sum
-/// of their squares is convex in φ², so one of the ends of its range has it: r p² φ0 max(1, φ0).
+/// Returns the largest acceleration at radius r over a swing, from the tangential p² φ r and the radial p² (φ0² - φ²)
+/// r. The sum of their squares is convex in φ², so its maximum is at an end of its range: r p² φ0 max(1, φ0).
 fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> PayloadMotion {
     let p = frequency(stiffness, inertia);
     PayloadMotion {
@@ -121,13 +121,13 @@ fn motion(stiffness: f64, inertia: f64, twist: f64, radius: Option<f64>) -> Payl
     }
 }
 
-/// Sizes the bar and the cam's spring and runs the programme.
+/// Designs the bar and the cam's spring and runs the programme.
 ///
 /// # Units
 /// SI.
 ///
 /// # Errors
-/// Discs that do not swing.
+/// Returns an error if the discs do not swing.
 ///
 /// # Sources
 /// `[Klyuchkovskyi 1999]`: φ0, hardest motion, largest inertia, then bar, missing angle, spring.
@@ -147,7 +147,7 @@ pub fn drive(spec: &DriveSpec) -> Result<Driving, SwingError> {
     Ok(Driving { sizing, design })
 }
 
-/// The damping of the simulation, and where it comes from.
+/// Returns the damping of the simulation, and its source.
 fn damping(spec: &DriveSpec, stiffness: f64) -> (Damping, DampingFrom) {
     let largest = usize::from(spec.inertias[1] > spec.inertias[0]);
     let viscous = |viscous| Damping {
@@ -165,7 +165,7 @@ fn damping(spec: &DriveSpec, stiffness: f64) -> (Damping, DampingFrom) {
     }
 }
 
-/// The work of the cam that brings both discs to their latch at rest, where any does.
+/// Returns the work of the cam that brings both discs to their latch at rest, if there is such work.
 fn needed_feed(discs: &[Disc; 2], latch: Latch, feed: &Feed) -> Result<Option<f64>, SwingError> {
     let needs = discs
         .iter()
@@ -176,7 +176,7 @@ fn needed_feed(discs: &[Disc; 2], latch: Latch, feed: &Feed) -> Result<Option<f6
         .try_fold(0.0f64, |most, n| n.map(|n| most.max(n))))
 }
 
-/// The drive with a bar, and the programme it runs.
+/// Returns the drive with a bar, and the programme it runs.
 fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     let stiffness = bar.stiffness();
     let (damping, damping_from) = damping(spec, stiffness);
@@ -231,7 +231,7 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     Ok(design)
 }
 
-/// The cam of a design, for swings of `twist` either way of the middle.
+/// Returns the cam of a design, for swings of `twist` to either side of the middle.
 fn cam(c: model::drive::Cam, twist: f64, design: &Design) -> CamDesign {
     let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
     let profile = c.profile.map(|(radius, roller)| {

@@ -8,18 +8,18 @@ use crate::model::drive::ProgrammeStep;
 pub struct Module {
     /// The discs; both have the bar's stiffness.
     pub discs: [Disc; 2],
-    /// The latch, alike on both sides.
+    /// The latch, equal on both sides.
     pub latch: Latch,
     /// The cam's push on a swinging disc.
     pub feed: Feed,
 }
 
-/// What became of a step.
+/// Outcome of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Event {
     /// A swing.
     Swing {
-        /// Which disc.
+        /// The disc.
         disc: usize,
         /// The motion.
         swing: Swing,
@@ -31,13 +31,13 @@ pub enum Event {
 /// A step that was run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ran {
-    /// When it began. `[s]`
+    /// Start time. `[s]`
     pub start: f64,
     /// `[s]`
     pub duration: f64,
-    /// Angles of the discs when it began. `[rad]`
+    /// Angles of the discs at the start. `[rad]`
     pub angles: [f64; 2],
-    /// What happened.
+    /// The outcome.
     pub event: Event,
 }
 
@@ -46,64 +46,64 @@ pub struct Ran {
 pub struct Run {
     /// The steps.
     pub steps: Vec<Ran>,
-    /// How many swings ended in a latch.
+    /// Number of swings that ended in a latch.
     pub latched: usize,
-    /// How many swings were asked for.
+    /// Number of swings in the programme.
     pub wanted: usize,
     /// Angles of the discs at the end. `[rad]`
     pub angles: [f64; 2],
 }
 
-/// What comes of a programme repeated without end.
+/// Result of repeating a programme without end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Endurance {
-    /// They go on, each caught no farther short of its latch. `[rad]`
+    /// The repetitions continue, each swing caught within a bounded distance of its latch. `[rad]`
     Lasts {
-        /// How far short at most, in the long run.
+        /// Largest distance from the latch in the long run.
         missing: f64,
     },
     /// A latch is missed.
     Fails {
-        /// After so many swings that were latched.
+        /// Number of latched swings before that.
         after: usize,
     },
-    /// Still drifting when counting stopped.
+    /// Still drifting when the limit was reached.
     Drifts {
-        /// How far short by then. `[rad]`
+        /// Distance from the latch at that time. `[rad]`
         missing: f64,
     },
 }
 
-/// Swings after which a drift is no longer followed.
+/// Number of swings after which a drift is no longer followed.
 pub const PATIENCE: usize = 10_000;
-/// Places that differ by a smaller share of φ0 are the same.
+/// Share of φ0 below which positions count as equal.
 const SAME: f64 = 1e-12;
 
-/// A moment of a run.
+/// The state of a run at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunMoment {
     /// `[s]`
     pub time: f64,
     /// Angles of the discs. `[rad]`
     pub angles: [f64; 2],
-    /// In the bar. `[J]`
+    /// Energy in the bar. `[J]`
     pub potential: f64,
-    /// Of the swinging disc. `[J]`
+    /// Energy of the swinging disc. `[J]`
     pub kinetic: f64,
-    /// Of the discs. `[rad/s]`
+    /// Speeds of the discs. `[rad/s]`
     pub speeds: [f64; 2],
-    /// Of the discs. `[rad/s²]`
+    /// Accelerations of the discs. `[rad/s²]`
     pub accelerations: [f64; 2],
 }
 
 impl Run {
-    /// Whether every swing ended in a latch.
+    /// Returns true if every swing ended in a latch.
     #[must_use]
     pub fn complete(&self) -> bool {
         self.latched == self.wanted
     }
 
-    /// The swings.
+    /// Returns the swings.
     pub fn swings(&self) -> impl Iterator<Item = (usize, &Swing)> {
         self.steps.iter().filter_map(|s| match &s.event {
             Event::Swing { disc, swing } => Some((*disc, swing)),
@@ -112,7 +112,7 @@ impl Run {
     }
 }
 
-/// The discs that a programme lets go, in order.
+/// Returns the discs that a programme releases, in order.
 #[must_use]
 pub(crate) fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
     let disc = |s: &ProgrammeStep| match s {
@@ -122,18 +122,19 @@ pub(crate) fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
     programme.iter().filter_map(disc).collect()
 }
 
-/// Where the discs stand. A disc's grooves are 2φ0 apart on it, and those of the two discs φ0 from each other's: a disc at
-/// rest is in the groove at φ0 times its place, or short of it by as much as the latch lets pass.
+/// Positions of the discs. A disc's grooves are 2φ0 apart on it, and those of the two discs are offset by φ0. A disc at
+/// rest is in the groove at φ0 times its index, or short of it within the capture of the latch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct DiscAngles {
-    /// Of the grooves, in steps of φ0; always one apart.
+    /// Indices of the grooves, in steps of φ0; always one apart.
     places: [i32; 2],
-    /// From the grooves to where the discs are. `[rad]`
+    /// Offsets of the discs from the grooves. `[rad]`
     offsets: [f64; 2],
 }
 
 impl DiscAngles {
-    /// The offsets as seen by whom the second disc stands ahead: a state and its mirror image go on alike.
+    /// Returns the offsets in a frame in which the second disc is ahead. A state and its mirror image continue in the
+    /// same way.
     fn seen_ahead(&self) -> [f64; 2] {
         let way = f64::from(self.places[1] - self.places[0]);
         self.offsets.map(|x| way * x)
@@ -141,7 +142,7 @@ impl DiscAngles {
 }
 
 impl Module {
-    /// The discs in their grooves, the first a step ahead.
+    /// The discs in their grooves, with the first one step ahead.
     const START: DiscAngles = DiscAngles {
         places: [1, 0],
         offsets: [0.0; 2],
@@ -151,10 +152,10 @@ impl Module {
         [0, 1].map(|d| f64::from(now.places[d]) * self.latch.at + now.offsets[d])
     }
 
-    /// Lets a disc swing to its next groove on the far side of the other disc, and stands it where it stops.
+    /// Lets a disc swing to its next groove on the far side of the other disc, and updates its position.
     ///
-    /// The latch and the cam's push are where the disc's own grooves have them, however far short of its groove either disc
-    /// stands: shortfalls add up.
+    /// The latch and the cam's push are fixed to the disc's own grooves, however far either disc is from its groove. So
+    /// shortfalls add up.
     fn swing(&self, now: &mut DiscAngles, disc: usize) -> Result<Swing, SwingError> {
         let other = 1 - disc;
         let onward = now.places[other] - now.places[disc];
@@ -175,10 +176,11 @@ impl Module {
     /// Runs a programme from rest, with the first disc turned φ0 ahead of the second.
     ///
     /// # Guarantee
-    /// Exact, see [`Disc::swing`]; latched discs do not move. A disc that the latch catches short of its groove stays there.
+    /// Exact, see [`Disc::swing`]; latched discs do not move. A disc that the latch catches short of its groove stays
+    /// there.
     ///
     /// # Errors
-    /// Discs that do not swing.
+    /// Returns an error if the discs do not swing.
     pub fn run(&self, programme: &[ProgrammeStep]) -> Result<Run, SwingError> {
         let wanted = swings(programme).len();
         let mut now = Self::START;
@@ -218,16 +220,17 @@ impl Module {
         Ok(run)
     }
 
-    /// Repeats a programme as it is written until a round leaves the discs as some round before it did, or a latch is missed.
+    /// Repeats a programme as written until a round leaves the discs in the state of an earlier round, or a latch is
+    /// missed.
     ///
-    /// Rounds are held against one that was marked, the mark being set anew after 1, 2, 4, ... rounds [Brent 1980], so that
-    /// swings that repeat after several rounds are seen to repeat, and a slow drift is not taken for rest.
+    /// Rounds are compared with a marked one, and the mark moves after 1, 2, 4, ... rounds [Brent 1980]. So swings that
+    /// repeat only after several rounds are recognised, and a slow drift is not mistaken for rest.
     ///
     /// # Errors
-    /// As [`Module::run`].
+    /// Returns an error in the same cases as [`Module::run`].
     ///
     /// # Complexity
-    /// At most [`PATIENCE`] swings, and those of one round more.
+    /// At most [`PATIENCE`] swings, and those of one more round.
     pub fn endurance(&self, programme: &[ProgrammeStep]) -> Result<Endurance, SwingError> {
         let discs = swings(programme);
         if discs.is_empty() {
@@ -260,7 +263,7 @@ impl Module {
         Ok(Endurance::Drifts { missing })
     }
 
-    /// The run at moments `per_swing` to a swing, for charts.
+    /// Returns the run at `per_swing` times per swing, for charts.
     #[must_use]
     pub fn samples(&self, run: &Run, per_swing: u32) -> Vec<RunMoment> {
         let mut out = Vec::new();

@@ -1,7 +1,6 @@
-//! One swing of a released disc, exact piece by piece: a damped oscillation about an equilibrium that dry friction and the
-//! cam shift.
+//! One swing of a released disc, exact piece by piece: a damped oscillation about an equilibrium that dry friction and the cam shift.
 //!
-//! The disc starts at rest at -A from the neutral position and moves towards the latch at +φ0; `u` is its place, growing.
+//! The disc starts at rest at -A from the neutral position and moves towards the latch at +φ0; `u` is its increasing position.
 
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -14,23 +13,23 @@ pub struct Disc {
     pub inertia: f64,
     /// k. `[N·m/rad]`
     pub stiffness: f64,
-    /// Moment per speed, as of bearings in oil and of air. `[N·m·s/rad]`
+    /// Moment per speed, for example of bearings in oil and of air. `[N·m·s/rad]`
     pub viscous: f64,
-    /// Moment that only has a direction, as of dry bearings. `[N·m]`
+    /// Moment of constant size against the motion, for example of dry bearings. `[N·m]`
     pub coulomb: f64,
 }
 
-/// The cam's push: a moment constant by piece, the last up to the latch.
+/// The cam's push: a piecewise constant moment, the last piece up to the latch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Feed {
     /// Work of all pieces. `[J]`
     pub energy: f64,
-    /// In order: the place where each begins `[rad]`, and its moment as a multiple of what all are told by.
+    /// The pieces in order: the position where each begins `[rad]`, and its moment as a multiple of a common one.
     pub pieces: Vec<(f64, f64)>,
 }
 
 impl Feed {
-    /// One moment from a place to the latch.
+    /// Creates a constant moment from a position to the latch.
     #[must_use]
     pub fn even(energy: f64, from: f64) -> Feed {
         Feed {
@@ -39,13 +38,13 @@ impl Feed {
         }
     }
 
-    /// Where it begins. `[rad]`
+    /// Returns the position where it begins. `[rad]`
     #[must_use]
     pub fn begins(&self) -> f64 {
         self.pieces.first().map_or(0.0, |p| p.0)
     }
 
-    /// The places where pieces begin and end `[rad]` and their moments `[N·m]`, up to a latch; none where nothing is fed.
+    /// Returns the positions where pieces begin and end `[rad]` and their moments `[N·m]`, up to a latch. Empty if nothing is fed.
     #[must_use]
     pub fn moments(&self, latch: f64) -> Vec<([f64; 2], f64)> {
         let ends = self.pieces.iter().skip(1).map(|p| p.0).chain([latch]);
@@ -60,7 +59,7 @@ impl Feed {
         pieces.into_iter().map(scaled).collect()
     }
 
-    /// The same push from the place of another: all places are so much farther. `[rad]`
+    /// Returns the push with all positions increased by an offset. `[rad]`
     #[must_use]
     pub fn moved(&self, by: f64) -> Feed {
         let pieces = self.pieces.iter().map(|&(from, m)| (from + by, m));
@@ -74,28 +73,28 @@ impl Feed {
 /// The latch at the far end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Latch {
-    /// φ0, from the neutral position. `[rad]`
+    /// φ0, distance from the neutral position. `[rad]`
     pub at: f64,
-    /// A disc that stops short by no more than this is caught. `[rad]`
+    /// Maximum distance from the latch at which a stopped disc is caught. `[rad]`
     pub capture: f64,
 }
 
-/// How a swing ends.
+/// End of a swing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
-    /// At the latch; what was left of its speed is lost there. `[J]`
+    /// At the latch, where the remaining speed is lost. `[J]`
     Latched {
         /// Kinetic energy on arrival.
         impact: f64,
     },
     /// At rest, short of the latch and within its capture. `[rad]`
     Caught {
-        /// How far short.
+        /// Distance from the latch.
         missing: f64,
     },
-    /// At rest and out of the latch's capture: it will swing back. `[rad]`
+    /// At rest and outside the latch's capture, so that it will swing back. `[rad]`
     Missed {
-        /// How far short.
+        /// Distance from the latch.
         missing: f64,
     },
     /// Friction is stronger than the bar at the start.
@@ -103,7 +102,7 @@ pub enum End {
 }
 
 impl Latch {
-    /// How a swing ends that comes to rest at a place short of the latch.
+    /// Returns the end of a swing that comes to rest short of the latch.
     fn of_rest(self, place: f64) -> End {
         let missing = self.at - place;
         if missing <= self.capture {
@@ -114,7 +113,7 @@ impl Latch {
     }
 }
 
-/// Why a disc does not swing.
+/// Reason why a disc does not swing.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SwingError {
@@ -123,41 +122,41 @@ pub enum SwingError {
         "the damping ratio is {0:.3}; at 1 and above the disc creeps and does not swing: lower the viscous damping"
     )]
     Overdamped(f64),
-    /// Not a disc.
+    /// The values do not describe a disc.
     #[error("inertia and stiffness must be positive and the damping not negative")]
     Disc,
 }
 
-/// A stretch of motion under constant moments.
+/// An interval of motion under constant moments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     start: f64,
     length: f64,
-    /// Equilibrium place.
+    /// Equilibrium position.
     middle: f64,
-    /// Place from it and speed, at the start.
+    /// Position relative to it and speed, at the start.
     from: (f64, f64),
 }
 
-/// Where the energy of a swing went. `[J]`
+/// Energy balance of a swing. `[J]`
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Balance {
-    /// In the bar at the start.
+    /// Energy in the bar at the start.
     pub initial: f64,
-    /// From the cam.
+    /// Energy from the cam.
     pub fed: f64,
-    /// Into dry friction.
+    /// Energy lost to dry friction.
     pub coulomb: f64,
-    /// Into viscous damping, integrated over the motion.
+    /// Energy lost to viscous damping, integrated over the motion.
     pub viscous: f64,
-    /// Into the latch.
+    /// Energy lost in the latch.
     pub impact: f64,
-    /// In the bar at the end.
+    /// Energy in the bar at the end.
     pub stored: f64,
 }
 
 impl Balance {
-    /// What the parts fail to add up to; rounding alone.
+    /// Returns the residual of the balance, which is only rounding.
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.initial + self.fed - self.coulomb - self.viscous - self.impact - self.stored
@@ -169,15 +168,15 @@ impl Balance {
 pub struct Swing {
     disc: Disc,
     pieces: Vec<Piece>,
-    /// How it ends.
+    /// The end of the swing.
     pub end: End,
     /// `[s]`
     pub duration: f64,
-    /// When the cam's push begins, where it comes to that. `[s]`
+    /// Time at which the cam's push begins, if it does. `[s]`
     pub push_begins: Option<f64>,
-    /// Where it ends. `[rad]`
+    /// End position. `[rad]`
     pub place: f64,
-    /// Where its energy went.
+    /// Energy balance.
     pub balance: Balance,
 }
 
@@ -190,20 +189,20 @@ impl Disc {
         (decay, square, (square - decay * decay).sqrt())
     }
 
-    /// ζ, damping over the critical one.
+    /// Returns ζ, the damping relative to the critical one.
     #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         self.viscous / (2.0 * (self.stiffness * self.inertia).sqrt())
     }
 
-    /// The viscous damping with which a free swing from `twist` ends `missing` short, dry friction apart. `[N·m·s/rad]`
+    /// Returns the viscous damping with which a free swing from `twist` ends `missing` short, without dry friction. `[N·m·s/rad]`
     #[must_use]
     pub fn viscous_for(inertia: f64, stiffness: f64, twist: f64, missing: f64) -> f64 {
         let delta = (twist / (twist - missing)).ln();
         2.0 * (stiffness * inertia).sqrt() * delta / (PI * PI + delta * delta).sqrt()
     }
 
-    /// How far short of the start's mirror image a swing without the cam ends: closed form. `[rad]`
+    /// Returns the distance by which a swing without the cam ends short of the start's mirror image, in closed form. `[rad]`
     #[must_use]
     pub fn missing(&self, twist: f64) -> f64 {
         let (decay, _, turning) = self.rates();
@@ -212,7 +211,7 @@ impl Disc {
         (twist - (left - shift)).clamp(0.0, 2.0 * twist)
     }
 
-    /// Refuses a disc that does not swing.
+    /// Returns an error if the disc does not swing.
     fn check(&self) -> Result<(), SwingError> {
         let positive = self.inertia > 0.0
             && self.stiffness > 0.0
@@ -233,11 +232,11 @@ impl Disc {
     /// SI, `[rad]`.
     ///
     /// # Guarantee
-    /// Places and speeds are closed forms; the moments of stopping are closed forms and those of passing a place are found to
-    /// the last bit, so that [`Balance::residual`] is rounding alone.
+    /// Positions, speeds and the times of stopping are closed forms. The times of passing a position are found to the last bit, so that
+    /// [`Balance::residual`] is only rounding.
     ///
     /// # Errors
-    /// A disc that does not swing.
+    /// Returns an error if the disc does not swing.
     pub fn swing(&self, start: f64, latch: Latch, feed: &Feed) -> Result<Swing, SwingError> {
         self.check()?;
         let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
@@ -255,7 +254,7 @@ impl Disc {
                 continue;
             }
             let middle = (moment - self.coulomb) / self.stiffness;
-            // At rest, the bar must be stronger than friction; what is stopped stays so.
+            // At rest, the bar must be stronger than friction; a stopped disc stays at rest.
             if v <= 0.0 && u >= middle {
                 break;
             }
@@ -298,7 +297,7 @@ impl Disc {
         })
     }
 
-    /// The motion from a place and speed until it stops or passes `bound`.
+    /// Returns the motion from a position and speed until it stops or passes `bound`.
     fn piece(&self, start: f64, u: f64, v: f64, middle: f64, bound: f64) -> Piece {
         let (decay, square, turning) = self.rates();
         let y = u - middle;
@@ -314,7 +313,7 @@ impl Disc {
             from: (y, v),
         };
         if self.state(&piece, stop).0 > bound {
-            // The place grows all the way to the stop, so that there is one crossing: halve until floats run out.
+            // The position increases until the stop, so there is one crossing. The interval is halved to the precision of floats.
             let (mut before, mut after) = (0.0, stop);
             loop {
                 let half = 0.5 * (before + after);
@@ -332,7 +331,7 @@ impl Disc {
         piece
     }
 
-    /// Place and speed at a time into a piece.
+    /// Returns position and speed at a time into a piece.
     fn state(&self, p: &Piece, t: f64) -> (f64, f64) {
         let (decay, square, turning) = self.rates();
         let (y, v) = p.from;
@@ -343,12 +342,12 @@ impl Disc {
         (p.middle + place, speed)
     }
 
-    /// Integral of the square of the speed over a piece.
+    /// Returns the integral of the square of the speed over a piece.
     fn speed_squared(&self, p: &Piece) -> f64 {
         let (decay, square, turning) = self.rates();
         let (y, v) = p.from;
         let (cosine, sine) = (v, -(square * y + decay * v) / turning);
-        // Over e^(-at), e^(-at) cos bt and e^(-at) sin bt.
+        // Integrals of e^(-at), e^(-at) cos bt and e^(-at) sin bt.
         let (a, b, t) = (2.0 * decay, 2.0 * turning, p.length);
         let fade = (-a * t).exp();
         let (s, c) = (b * t).sin_cos();
@@ -365,12 +364,12 @@ impl Disc {
             + cosine * sine * with_sine
     }
 
-    /// The least work of the cam with which a swing from `-latch.at` arrives at the latch, its pieces standing to each other as
-    /// those of `feed`: at rest where no piece pushes more than the one before. `None` where no work does, since the disc is
-    /// stuck or stops before the push begins. `[J]`
+    /// Returns the smallest work of the cam with which a swing from `-latch.at` reaches the latch, with pieces in the proportions of
+    /// `feed`. The disc arrives at rest if no piece pushes more than the one before. Returns `None` if no work is enough, because the
+    /// disc is stuck or stops before the push begins. `[J]`
     ///
     /// # Errors
-    /// As [`Disc::swing`].
+    /// Returns an error in the same cases as [`Disc::swing`].
     pub fn needed_feed(&self, latch: Latch, feed: &Feed) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
             let feed = Feed {
@@ -408,7 +407,7 @@ impl Disc {
 }
 
 impl Swing {
-    /// Acceleration at a time from the release; none at its end. `[rad/s²]`
+    /// Returns the acceleration at a time from the release, which is 0 at its end. `[rad/s²]`
     #[must_use]
     pub fn acceleration(&self, time: f64) -> f64 {
         let now = self.pieces.iter().find(|p| time <= p.start + p.length);
@@ -419,7 +418,7 @@ impl Swing {
         })
     }
 
-    /// Place and speed at a time from the release; at rest at its end afterwards.
+    /// Returns position and speed at a time from the release. Afterwards the disc is at rest at its end.
     #[must_use]
     pub fn at(&self, time: f64) -> (f64, f64) {
         let now = self.pieces.iter().find(|p| time <= p.start + p.length);

@@ -16,7 +16,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// k = π d⁴ G / (32 l). `[N·m/rad]`
+    /// Returns k = π d⁴ G / (32 l). `[N·m/rad]`
     ///
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equation (8).
@@ -25,7 +25,7 @@ impl Bar {
         PI * self.diameter.powi(4) * self.shear_modulus / (32.0 * self.length)
     }
 
-    /// `[φ]` = 2 l `[τ_s]` / (d G), the twist at which the rim reaches the allowable shear stress. `[rad]`
+    /// Returns `[φ]` = 2 l `[τ_s]` / (d G), the twist at which the rim reaches the allowable shear stress. `[rad]`
     ///
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equation (11), where the stress shares its letter with the period.
@@ -34,35 +34,35 @@ impl Bar {
         2.0 * self.length * allowable_stress / (self.diameter * self.shear_modulus)
     }
 
-    /// Shear stress at the rim at a twist. `[Pa]`
+    /// Returns the shear stress at the rim at a twist. `[Pa]`
     #[must_use]
     pub fn stress(&self, twist: f64) -> f64 {
         self.diameter * self.shear_modulus * twist / (2.0 * self.length)
     }
 }
 
-/// Π = k φ0² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (1).
+/// Returns Π = k φ0² / 2. `[J]`, `[Klyuchkovskyi 1999]` equation (1).
 #[must_use]
 pub fn stored_energy(stiffness: f64, twist: f64) -> f64 {
     stiffness * twist * twist / 2.0
 }
 
-/// p = √(k/I). `[rad/s]`, `[Klyuchkovskyi 1999]` equation (4).
+/// Returns p = √(k/I). `[rad/s]`, `[Klyuchkovskyi 1999]` equation (4).
 #[must_use]
 pub fn frequency(stiffness: f64, inertia: f64) -> f64 {
     (stiffness / inertia).sqrt()
 }
 
-/// δ = ln(A_k / A_{k+1}) of two maximal deflections that follow each other, half a period apart.
+/// Returns δ = ln(A_k / A_{k+1}) of two successive maximal deflections, half a period apart.
 ///
 /// # Sources
-/// `[Klyuchkovskyi 1999]` equation (6), also given there as about ΔA/A.
+/// `[Klyuchkovskyi 1999]` equation (6), which also gives it as about ΔA/A.
 #[must_use]
 pub fn decrement(deflection: f64, next: f64) -> f64 {
     (deflection / next).ln()
 }
 
-/// d = ⁴√(128 π I l / (τ² G)). `[m]`, `[Klyuchkovskyi 1999]` equation (10).
+/// Returns d = ⁴√(128 π I l / (τ² G)). `[m]`, `[Klyuchkovskyi 1999]` equation (10).
 #[must_use]
 pub fn diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) -> f64 {
     (128.0 * PI * inertia * length / (period * period * shear_modulus))
@@ -70,7 +70,7 @@ pub fn diameter(inertia: f64, length: f64, period: f64, shear_modulus: f64) -> f
         .sqrt()
 }
 
-/// E_fr = k/2 (2 φ0 Δφ - Δφ²), what friction takes in a swing that ends Δφ short. `[J]`
+/// Returns E_fr = k/2 (2 φ0 Δφ - Δφ²), the energy lost to friction in a swing that ends Δφ short. `[J]`
 ///
 /// # Sources
 /// `[Klyuchkovskyi 1999]` equation (12).
@@ -86,22 +86,23 @@ pub struct CamSpring {
     pub rate: f64,
     /// S, stroke of its end. `[m]`
     pub stroke: f64,
-    /// ψ0, deformation when mounted over the stroke.
+    /// ψ0, deformation when mounted, relative to the stroke.
     pub mounting: f64,
 }
 
 impl CamSpring {
-    /// A_spring = ½ [(1 + ψ0)² - ψ0²] c S², what it gives over its stroke. `[J]`
+    /// Returns A_spring = ½ [(1 + ψ0)² - ψ0²] c S², its energy over the stroke. `[J]`
     ///
     /// # Sources
-    /// `[Klyuchkovskyi 1999]` equation (13). DIFFERENCE: the scan prints (1 + ψ0²); only the square of the sum agrees with (14).
+    /// `[Klyuchkovskyi 1999]` equation (13). DIFFERENCE: the scan prints (1 + ψ0²); only the square of the sum agrees
+    /// with (14).
     #[must_use]
     pub fn energy(&self) -> f64 {
         let psi = self.mounting;
         0.5 * ((1.0 + psi).powi(2) - psi * psi) * self.rate * self.stroke.powi(2)
     }
 
-    /// The spring that makes up for friction: c = 2 E_fr / (η (1 + 2 ψ0) S²).
+    /// Returns the spring that compensates friction: c = 2 E_fr / (η (1 + 2 ψ0) S²).
     ///
     /// # Sources
     /// `[Klyuchkovskyi 1999]` equation (14).
@@ -127,7 +128,7 @@ impl Serialize for CamSpring {
     }
 }
 
-/// What a bar is sized for.
+/// Requirements on a bar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wanted {
     /// φ0, half the swing. `[rad]`
@@ -140,13 +141,13 @@ pub struct Wanted {
     pub shear_modulus: f64,
     /// `[τ_s]`. `[Pa]`
     pub allowable_stress: f64,
-    /// The length to begin with. `[m]`
+    /// The initial length. `[m]`
     pub length: Option<f64>,
-    /// The greatest length there is room for. `[m]`
+    /// The maximum available length. `[m]`
     pub max_length: Option<f64>,
-    /// Lengths are multiples of this where they are chosen. `[m]`
+    /// Step of chosen lengths. `[m]`
     pub length_step: f64,
-    /// Diameters to choose from, ascending; any where empty. `[m]`
+    /// Available diameters, ascending. If empty, any diameter is allowed. `[m]`
     pub diameters: Vec<f64>,
 }
 
@@ -160,11 +161,11 @@ pub struct BarTrial {
     pub allowable_twist: f64,
     /// Whether (11) holds.
     pub strong: bool,
-    /// Whether there is room for it.
+    /// Whether there is enough space for it.
     pub fits: bool,
 }
 
-/// What would have to change for a bar to be found, each alone, at the greatest length.
+/// Changes that make a bar possible, each on its own, at the maximum length.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Remedy {
     /// A bar at least this long. `[m]`
@@ -173,32 +174,32 @@ pub struct Remedy {
     /// A material with at least this `[τ_s]`. `[Pa]`
     #[serde(rename = "allowable_stress_above")]
     pub allowable_stress: f64,
-    /// A period of at least this. `[s]`
+    /// A period at least this long. `[s]`
     #[serde(rename = "period_above")]
     pub period: f64,
-    /// φ0 of less than this. `[rad]`
+    /// φ0 below this. `[rad]`
     #[serde(rename = "half_swing_below")]
     pub twist: f64,
-    /// I of less than this. `[kg·m²]`
+    /// I below this. `[kg·m²]`
     #[serde(rename = "inertia_below")]
     pub inertia: f64,
 }
 
-/// A bar, or why there is none.
+/// A bar, or the reason why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sizing {
-    /// What was tried, in order; the last is the bar where one was found.
+    /// The trials, in order; the last is the bar if one was found.
     pub trials: Vec<BarTrial>,
     /// The bar.
     #[serde(skip)]
     pub bar: Option<Bar>,
-    /// What would have to change where there is none.
+    /// The necessary changes if there is none.
     #[serde(rename = "remedies")]
     pub remedy: Option<Remedy>,
 }
 
 impl Wanted {
-    /// k = I (2π/τ)². `[N·m/rad]`
+    /// Returns k = I (2π/τ)². `[N·m/rad]`
     #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.inertia * (2.0 * PI / self.period).powi(2)
@@ -222,7 +223,7 @@ impl Wanted {
         }
     }
 
-    /// The least length at which (11) is an equality: `[φ]` grows as l^(3/4) when d follows (10). `[m]`
+    /// Returns the smallest length, at which (11) is an equality: `[φ]` grows as l^(3/4) if d follows (10). `[m]`
     #[must_use]
     pub fn least_length(&self) -> f64 {
         let one = self.trial(
@@ -232,8 +233,8 @@ impl Wanted {
         (self.twist / one.allowable_twist).powf(4.0 / 3.0)
     }
 
-    /// Sizes the bar: d by (10) from l, l lengthened until (11) holds; or, from a list of diameters, the least whose length by (8)
-    /// satisfies (11) and has room.
+    /// Determines the size of the bar. d follows from l by (10), and l is increased until (11) holds. With a list of
+    /// diameters, the result is the smallest one whose length by (8) satisfies (11) and fits.
     ///
     /// # Units
     /// SI.
