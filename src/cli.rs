@@ -17,9 +17,9 @@ use std::process::ExitCode;
 
 /// A search engine for statically determinate mechanisms.
 ///
-/// FILE is a path to a mechanism file (TOML, or JSON with the ending .json), to a robot description (.urdf, .xml, .sdf) or
-/// to a CAD assembly (FreeCAD's .FCStd, OndselSolver's .asmt; see `ozols export` for more control), `-` for standard input,
-/// or the name of a built-in mechanism (see `ozols list`).
+/// FILE is a path, `-` for standard input, or the name of a built-in mechanism (see `ozols list`). A path leads to a mechanism
+/// file (TOML, or JSON with the ending .json), a robot description (.urdf, .xml, .sdf) or a CAD assembly (FreeCAD's .FCStd,
+/// OndselSolver's .asmt; see `ozols export` for more control).
 #[derive(Debug, Parser)]
 #[command(
     name = "ozols",
@@ -28,7 +28,7 @@ use std::process::ExitCode;
     after_help = examples::MAIN
 )]
 struct Args {
-    /// What to do.
+    /// The command to run.
     #[command(subcommand)]
     command: Command,
     #[command(flatten)]
@@ -115,7 +115,7 @@ fn say_parsed(e: &clap::Error) -> u8 {
     }
 }
 
-/// The exit code, after what went wrong is said.
+/// Reports an error, if any, and returns the exit code.
 fn finish(result: anyhow::Result<Done>) -> u8 {
     terminal::spinner::rest();
     let interrupted = |code| terminal::interrupt::exit_code().unwrap_or(code);
@@ -131,7 +131,7 @@ fn finish(result: anyhow::Result<Done>) -> u8 {
     }
 }
 
-/// Most threads: each takes some memory, and more of them than processors are of no use.
+/// Maximum number of threads: each takes some memory, and more threads than processors do not help.
 const THREADS: usize = 1024;
 
 fn prepare(args: &Global) -> anyhow::Result<()> {

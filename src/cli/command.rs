@@ -1,4 +1,4 @@
-//! The commands, one a file; this is the list of them.
+//! The commands, one file each; this is the list of them.
 
 pub(in crate::cli) mod accuracy;
 pub(in crate::cli) mod analyze;
@@ -29,58 +29,58 @@ use clap::Subcommand;
 
 #[derive(Debug, Subcommand)]
 pub(in crate::cli) enum Command {
-    /// Mobility and redundant constraints in each state.
+    /// Analyse mobility and redundant constraints, state by state.
     #[command(after_help = examples::ANALYZE)]
     Analyze(analyze::Analyze),
-    /// Every redesign that removes the redundant constraints: exact counts and the best ones.
+    /// Find every redesign without redundant constraints: exact counts, best ones first.
     #[command(after_help = examples::SEARCH)]
     Search(search::Search),
-    /// Assur groups of a planar mechanism, and its joint reactions over the cycle.
+    /// Compute Assur groups of a planar mechanism, and joint reactions over the cycle.
     #[command(after_help = examples::STATICS)]
     Statics(statics::args::Statics),
-    /// What a lever gripper can hold, and the drive moment it takes; force closure of any clamped mechanism.
+    /// Compute what a lever gripper can hold, or the force closure of any clamped mechanism.
     #[command(after_help = examples::GRIP)]
     Grip(grip::Grip),
     /// Size a torsional drive of two discs and run its programme.
     #[command(after_help = examples::DRIVE)]
     Drive(drive::Drive),
-    /// Confirm the certificates of rank that `ozols analyze --certificate` wrote.
+    /// Check the certificates of rank that `ozols analyze --certificate` wrote.
     #[command(after_help = examples::VERIFY)]
     Verify(verify::Verify),
-    /// Name each redundant constraint of robot descriptions and CAD assemblies, with its line and what removes it.
+    /// Report redundant constraints in robot descriptions and CAD assemblies, with line and fix.
     #[command(after_help = examples::LINT)]
     Lint(lint::Lint),
-    /// Let the redundant constraints of a robot description or a CAD assembly go, in its own file.
+    /// Remove the redundant constraints of a robot description or CAD assembly and write the edited file.
     #[command(after_help = examples::FIX)]
     Fix(fix::Fix),
     /// Draw the structural or the kinematic scheme as SVG.
     #[command(after_help = examples::DRAW)]
     Draw(draw::Draw),
-    /// One HTML page: the verdict, drawings, contours, and the variants to sort, filter and look at.
+    /// Write one HTML page: verdict, drawings, loops, and the redesigns to sort and filter.
     #[command(after_help = examples::REPORT)]
     Report(report::Report),
-    /// Draw and change a mechanism in the browser, with the verdict and the ideas at every change.
+    /// Draw and edit a mechanism in the browser; verdict and ideas update with every change.
     #[command(after_help = examples::STUDIO)]
     Studio(studio::StudioArgs),
     /// Write a mechanism, robot description or CAD assembly in another format: TOML, JSON, URDF, MJCF, SDF, DOT, GraphML.
     #[command(after_help = examples::EXPORT)]
     Export(export::Export),
-    /// How right and how fast each method is on every built-in mechanism, and where its numbers fail.
+    /// Measure accuracy and speed of every rank method on the built-in mechanisms.
     #[command(after_help = examples::ACCURACY)]
     Accuracy(accuracy::Accuracy),
-    /// How right and how fast each way of searching is: diagram, brute force, floating point, budgets, pools.
+    /// Benchmark the search methods: diagram, brute force, floating point, budgets, pools.
     #[command(after_help = examples::BENCH)]
     Bench(bench::Bench),
-    /// The structures that a mechanism can have, before it is drawn: chains, and grippers made of them.
+    /// Enumerate kinematic chains and gripper structures, and build catalogues of them.
     #[command(after_help = examples::CATALOG)]
     Catalog(catalog::Catalog),
     /// Write a commented mechanism file to start from.
     #[command(after_help = examples::NEW)]
     New(new::New),
-    /// What a file describes, and what is wrong or doubtful in it.
+    /// Check a mechanism file: summary, errors and warnings.
     #[command(after_help = examples::CHECK)]
     Check(File),
-    /// The built-in mechanisms.
+    /// List the built-in mechanisms.
     #[command(after_help = examples::LIST)]
     List(list::List),
     /// Print the file of a built-in mechanism, or the table of costs.
@@ -89,10 +89,10 @@ pub(in crate::cli) enum Command {
     /// Print the JSON Schema of the mechanism file.
     #[command(after_help = examples::SCHEMA)]
     Schema,
-    /// What a word in the output or the help means.
+    /// Explain a term or joint type.
     #[command(after_help = examples::EXPLAIN)]
     Explain(explain::Explain),
-    /// Print the script that completes commands and options in a shell.
+    /// Print a script that completes commands and options in a shell.
     #[command(after_help = examples::COMPLETIONS)]
     Completions(completions::Completions),
 }

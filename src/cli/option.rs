@@ -1,4 +1,4 @@
-//! Arguments that several commands have, and those that every command has.
+//! Arguments of several commands, and arguments of every command.
 
 pub(super) mod load;
 pub(super) mod named;
@@ -11,10 +11,10 @@ use clap::{Args as ClapArgs, ValueEnum};
 
 #[derive(Debug, ClapArgs)]
 pub(super) struct Global {
-    /// Nothing but errors on standard error: no progress bar, no report of an import, no warnings.
+    /// Print errors only: no progress, import report or warnings.
     #[arg(long, short, global = true)]
     pub(super) quiet: bool,
-    /// Threads to use; all processors by default. Results do not depend on it.
+    /// Number of threads [default: all processors]. Results do not depend on it.
     #[arg(long, global = true, value_name = "N")]
     pub(super) threads: Option<usize>,
     /// Seed of random samples.

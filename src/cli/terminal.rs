@@ -9,13 +9,13 @@ pub(super) mod output;
 pub(super) mod progress;
 pub(super) mod spinner;
 
-/// How a command ended without failing.
+/// The way a command ended without failing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Done {
     /// It did what was asked.
     Found,
-    /// There was nothing to be found, or something was that should not be there.
+    /// Nothing was found, or something was found that should not exist.
     Nothing,
-    /// Some of it failed, which was said, and the rest was done.
+    /// Some of it failed, which was reported, and the rest was done.
     Partly,
 }

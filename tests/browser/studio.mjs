@@ -394,7 +394,7 @@ export function studioTests(test) {
     // The window is closed: the program ends, says where the work is, and offers it again.
     const { code, said } = await second.ended;
     assert.equal(code, 0);
-    assert.match(said, /what was not saved is in .*mine\.toml\.autosave/);
+    assert.match(said, /unsaved work is in .*mine\.toml\.autosave/);
     const third = await served(folder, "mine.toml");
     await windowed(third.address, {}, async (tab) => {
       await tab.locator('#notice-left button:has-text("Take it up")').click();

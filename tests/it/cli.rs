@@ -99,7 +99,7 @@ fn bad_arguments_end_with_exit_code_2() {
         ",
     );
     if cfg!(unix) {
-        refuses("check /dev/null | is no regular file & standard input");
+        refuses("check /dev/null | is not a regular file & standard input");
     }
 }
 

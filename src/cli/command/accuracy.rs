@@ -16,13 +16,13 @@ use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Accuracy {
-    /// Write charts and tables to this folder, index.html first among them; without it only the table is printed.
+    /// Write charts and tables to this folder, with index.html as the start page; without it only the table is printed.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Fewer repeats and coarser studies: some seconds instead of a minute or two.
+    /// Fewer repeats and coarser studies: seconds instead of a minute or two.
     #[arg(long)]
     quick: bool,
-    /// Times each answer is timed; the median counts. 5 by default, 1 with --quick.
+    /// Number of times that each answer is timed; the median counts [default: 5, or 1 with --quick].
     #[arg(long, value_name = "N")]
     repeat: Option<usize>,
 }

@@ -25,31 +25,31 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use itertools::Itertools;
 use std::path::PathBuf;
 
-/// A rank method by its name, listed the surest first.
+/// Parses the name of a rank method; lists the surest method first.
 fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
     let each = registry::ALL.into_iter().rev();
     let values = each.map(|m| PossibleValue::new(m.name()).help(m.about().help));
     PossibleValuesParser::new(values)
-        .try_map(|name| registry::by_name(&name).ok_or("there is no such method"))
+        .try_map(|name| registry::by_name(&name).ok_or("unknown method"))
 }
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Analyze {
     #[command(flatten)]
     pub(in crate::cli) file: File,
-    /// A state named in the file, such as free or clamped, or all.
+    /// State to analyse, such as free or clamped, or all.
     #[arg(long, default_value = "all")]
     pub(in crate::cli) state: String,
-    /// How the rank is found.
+    /// Method that computes the rank.
     #[arg(long, value_parser = rank_method(), default_value = "auto")]
     method: &'static dyn MobilityMethod,
-    /// Relative tolerance of the floating-point methods; by default what suits the method.
+    /// Relative tolerance of the floating-point methods [default: depends on the method].
     #[arg(long, value_name = "T")]
     pub(in crate::cli) tolerance: Option<f64>,
-    /// Model the mechanism in its plane (normal z) with 3 rows per contour, whatever the file says.
+    /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial.
     #[arg(long)]
     pub(in crate::cli) planar: bool,
-    /// Also report the motion of this link; may be repeated.
+    /// Also report the motion of this link (repeatable).
     #[arg(long, value_name = "LINK")]
     link: Vec<String>,
     /// Report the motion of --link relative to this link instead of the frame.
@@ -67,12 +67,12 @@ pub(in crate::cli) struct Analyze {
     /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
     #[arg(long, value_name = "FILE")]
     pub(in crate::cli) certificate: Option<PathBuf>,
-    /// Also look at the poses over a range of the drive, in steps: 0:360deg:72. Counted from the pose of the file; radians
-    /// where no unit stands, the file's length unit for drives that slide. In the first state unless --state names one.
+    /// Also analyse the poses over a range of the drive, as FROM:TO:STEPS from the drawn pose, for example 0:360deg:72. Numbers
+    /// without a unit are radians, or the file's length unit for sliding drives. Uses the first state unless --state names one.
     #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
     pub(in crate::cli) stroke: Option<String>,
-    /// The joint that moves over the stroke, JOINT:FREEDOM where it has several; by default the file's first drive. The
-    /// file's other drives are held, unless this is none of them.
+    /// Joint that moves over the stroke, as JOINT:FREEDOM if it has several freedoms [default: the file's first drive]. The
+    /// file's other drives are locked, unless this joint is none of them.
     #[arg(long, value_name = "JOINT", requires = "stroke")]
     pub(in crate::cli) drive: Option<String>,
     /// Write a chart of the conditioning over the stroke to a file.
@@ -135,7 +135,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     write(a, &analysis, &next)
 }
 
-/// The states that are analysed: the one named, or all; over a stroke the free one unless another is named.
+/// Returns the states to analyse: the one named, or all. Over a stroke this is the free state unless another is named.
 fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateId>> {
     Ok(match (a.state.as_str(), mechanism.state(&a.state)) {
         (_, Some(s)) => vec![s],
@@ -180,12 +180,12 @@ fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
     }
     let why = match a.method.about().rank {
         RankOfJ::Numeric => return Ok(()),
-        RankOfJ::Chosen => "which goes by the digits and the [tolerance] table of the file",
+        RankOfJ::Chosen => "which uses the digits and the [tolerance] table of the file",
         RankOfJ::Exact | RankOfJ::NotFound => "which does not round",
     };
     ensure!(
         a.tolerance.is_none(),
-        "--tolerance has no effect with --method {}, {why}; leave it out, or use svd",
+        "--tolerance has no effect with --method {}, {why}; omit it, or use svd",
         a.method.name()
     );
     Ok(())
@@ -218,7 +218,7 @@ fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::
     })
 }
 
-/// Whether a verdict is good news.
+/// Returns the tone of a verdict: good news or bad.
 fn tone(s: &State<'_>) -> Tone {
     match (s.found.redundant, s.found.at_most()) {
         (_, Some(_)) => Tone::Doubtful,
@@ -227,7 +227,7 @@ fn tone(s: &State<'_>) -> Tone {
     }
 }
 
-/// By a method that gives a mobility and nothing else.
+/// Prints the result of a method that gives a mobility and nothing else.
 fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> anyhow::Result<Done> {
     let method = a.method;
     if a.stroke.is_some() {
@@ -238,7 +238,7 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
     }
     if a.certificate.is_some() {
         bail!(
-            "--method {} counts without a rank, so it has no certificate; use auto, or leave --certificate out",
+            "--method {} counts without a rank, so it has no certificate; use auto, or omit --certificate",
             method.name()
         );
     }

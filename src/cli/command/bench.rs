@@ -23,24 +23,25 @@ use std::path::PathBuf;
 enum BenchFormat {
     Text,
     Json,
-    /// One way of one mechanism a line.
+    /// One line per method and mechanism.
     Csv,
 }
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Bench {
-    /// Paths or names of built-in mechanisms; six built-in ones and a planar ladder of eight contours by default.
+    /// Paths or names of built-in mechanisms [default: six built-in ones and a planar ladder of eight loops].
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     files: Vec<Named>,
     #[command(flatten)]
     loops: Loops,
-    /// How many of the best are compared.
+    /// Number of best variants to compare.
     #[arg(long, value_name = "K", default_value_t = 10)]
     top: usize,
-    /// Variants that brute force looks at, in a space of no more all of them. 20,000 by default, 1,000 with --quick.
+    /// Number of variants that brute force analyses; a space that is no larger is analysed completely [default: 20000, or 1000
+    /// with --quick].
     #[arg(long, value_name = "N")]
     looked: Option<usize>,
-    /// Times each way is timed, fewer where it takes long; the median counts. 15 by default, 1 with --quick.
+    /// Number of times that each method is timed, fewer if it takes long; the median counts [default: 15, or 1 with --quick].
     #[arg(long, value_name = "N")]
     repeat: Option<usize>,
     /// Fewer repeats, variants and pools: seconds instead of a minute.
@@ -49,14 +50,14 @@ pub(in crate::cli) struct Bench {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: BenchFormat,
-    /// Write charts, the table and a page to this folder, index.html first among them.
+    /// Write charts, the table and a page to this folder, with index.html as the start page.
     #[arg(long, short, value_name = "DIR", conflicts_with = "format")]
     output: Option<PathBuf>,
     #[command(flatten)]
     which: Which,
 }
 
-/// What is tried on every mechanism, and how often it is timed.
+/// The trials that run on every mechanism, and the number of timings.
 struct Trials {
     request: Request,
     effort: TrialEffort,
@@ -64,7 +65,7 @@ struct Trials {
 }
 
 impl Trials {
-    /// What the options ask for.
+    /// Returns the trials that the options ask for.
     fn asked(args: &Global, a: &Bench) -> anyhow::Result<Trials> {
         let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 15 });
         let looked = a.looked.unwrap_or(if a.quick { 1_000 } else { 20_000 });
@@ -77,7 +78,7 @@ impl Trials {
         };
         ensure!(
             request.symmetry != Symmetry::OnePerOrbit,
-            "--one-per-orbit counts pairs, and brute force looks at each variant: leave it out, or take --symmetric"
+            "--one-per-orbit counts pairs, but brute force analyses each variant; omit it, or use --symmetric"
         );
         let effort = TrialEffort {
             looked,

@@ -20,25 +20,25 @@ pub(in crate::cli) struct Catalog {
 
 #[derive(Debug, Subcommand)]
 enum What {
-    /// How many chains, frames, drives and grippers there are.
+    /// Count chains, frames, drives and grippers.
     Count(chains::Count),
-    /// The chains, by the codes that name them.
+    /// List the chains by their codes.
     Chains(chains::Chains),
-    /// Lay out, search and score every structure, into a database; carries on where it was ended.
+    /// Lay out, search and score every structure and store it in a database; resumes an interrupted build.
     Build(Box<build::Build>),
-    /// Search mechanisms that were drawn, and keep them beside the structures.
+    /// Search existing mechanisms and store them with the structures.
     Search(drawn::SearchDrawn),
-    /// Put the parts of a catalogue together.
+    /// Merge the parts of a catalogue.
     Merge(merge::Merge),
-    /// What structure a mechanism has, what it is known as, and whether a catalogue has it.
+    /// Find the structure of a mechanism, its known name, and its entry in a catalogue.
     Find(look::Find),
-    /// Ask a catalogue in SQL, or for its best structures.
+    /// Query a catalogue in SQL, or list its best structures.
     Query(look::Query),
-    /// What a catalogue knows of a structure.
+    /// Show what a catalogue contains about a structure.
     Show(look::Show),
-    /// A structure as a mechanism file, or one of its ideas carried out.
+    /// Export a structure as a mechanism file, optionally with an idea applied.
     Export(look::Export),
-    /// A catalogue as one page to look at.
+    /// Write a catalogue as one HTML page.
     Page(look::Page),
 }
 

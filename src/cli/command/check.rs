@@ -19,12 +19,12 @@ use crate::view::terminal::layout::fit;
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 
-/// What `show` calls the table of costs; no built-in mechanism has this name.
+/// Name of the table of costs for `show`; no built-in mechanism has this name.
 const COSTS: &str = "costs";
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Show {
-    /// The name of a built-in mechanism; or `costs`, for the table of default costs that --costs takes.
+    /// Name of a built-in mechanism, or `costs` for the table of default costs that --costs takes.
     #[arg(value_name = "NAME")]
     name: String,
 }
@@ -83,7 +83,7 @@ struct StatedFigure {
     found: Option<i64>,
 }
 
-/// The figures that a file can state of a state, in the order they are warned of.
+/// Returns the figures that a file can state of a state, in the order of their warnings.
 fn figures(e: &Expected, found: &StateAnalysis) -> [StatedFigure; 6] {
     let int = |n: usize| i64::try_from(n).ok();
     // A range is at odds with a figure only outside it.

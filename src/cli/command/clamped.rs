@@ -1,4 +1,4 @@
-//! `ozols statics` of a mechanism that grips: the part cut free, its contact forces on the jaws.
+//! `ozols statics` of a mechanism that grips: the part is cut free, and its contact forces act on the jaws.
 
 use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
 use crate::cli::terminal::{Done, output};
@@ -10,7 +10,7 @@ use crate::view::grip::clamped::NotHeld;
 use crate::view::statics::told::ToldStatics;
 use anyhow::{Context, ensure};
 
-/// The diameter asked for, or the hardest; none where it is not held.
+/// Returns the diameter asked for, or the hardest one to hold. `None` if that part cannot be held.
 fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
     let Some(diameter) = a.diameter else {
         return Ok(g.study.hardest());
@@ -43,12 +43,12 @@ fn check_options(a: &Statics) -> anyhow::Result<()> {
     ] {
         ensure!(
             !given,
-            "{flag} needs a motion, and the levers stand still round the part; --diameter picks another part"
+            "{flag} needs a motion, but the levers do not move around this part; choose another part with --diameter"
         );
     }
     ensure!(
         !matches!(a.method, StaticsMethod::Delta | StaticsMethod::Projective),
-        "joints round a part are solved by equilibrium alone; use --method equilibrium"
+        "joints around a part are solved by equilibrium only; use --method equilibrium"
     );
     Ok(())
 }

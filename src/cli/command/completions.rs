@@ -6,7 +6,7 @@ use clap::Command;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Completions {
-    /// The shell.
+    /// Shell to complete for.
     #[arg(value_enum, value_name = "SHELL")]
     shell: clap_complete::Shell,
 }

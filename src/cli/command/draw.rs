@@ -17,9 +17,9 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum DrawKind {
-    /// Links as polygons, joints as circles with their class, contours tinted by their redundant constraints.
+    /// Links as polygons, joints as circles with their class, loops tinted by their redundant constraints.
     Scheme,
-    /// Links and the symbols of joints in place, from the coordinates.
+    /// Links and joint symbols in place, from the coordinates.
     Kinematic,
 }
 
@@ -27,44 +27,44 @@ enum DrawKind {
 pub(in crate::cli) struct Draw {
     #[command(flatten)]
     file: File,
-    /// What is drawn.
+    /// Kind of drawing.
     #[arg(long, value_enum, default_value = "scheme")]
     kind: DrawKind,
-    /// A state named in the file.
+    /// State of the file to draw.
     #[arg(long, default_value = "free")]
     state: String,
     #[command(flatten)]
     chosen: Chosen,
-    /// The side a kinematic scheme is seen from: x, y, z, iso, or the direction towards the reader such as "1,-2,0.5"; the one
-    /// with least overlap where it is left out.
+    /// Side from which a kinematic scheme is seen: x, y, z, iso, or the direction towards the reader such as "1,-2,0.5" [default:
+    /// the side with least overlap].
     #[arg(long, value_name = "SIDE", value_parser = side, allow_hyphen_values = true)]
     view: Option<[f64; 3]>,
-    /// What goes up on paper: x, y, z, or a direction such as "0,1,1"; z where it is left out.
+    /// Direction that points up on paper: x, y, z, or a direction such as "0,1,1" [default: z].
     #[arg(long, value_name = "AXIS", value_parser = axis, allow_hyphen_values = true)]
     up: Option<[f64; 3]>,
-    /// An animated SVG of the kinematic scheme: the drive goes its way, once round or to and fro, at 30 pictures a second. It
-    /// stands still for readers who ask for less motion, and on paper.
+    /// Animated SVG of the kinematic scheme: the drive moves through its range, one turn or back and forth, at 30 pictures a
+    /// second. It stands still for readers who ask for less motion, and on paper.
     #[arg(long)]
     motion: bool,
-    /// With --motion, an idle freedom to and fro instead of the drive: its number in the list of `ozols analyze`, from 1.
+    /// With --motion, animate this idle freedom instead of the drive (number from `ozols analyze`).
     #[arg(long, value_name = "K", requires = "motion", conflicts_with_all = ["stroke", "drive"])]
     idle: Option<usize>,
-    /// A self-stress as arrows on the links that it loads, in the kinematic scheme: its number in the list of `ozols analyze`,
-    /// from 1. Straight arrows are forces; arrows with two heads, arcs where they are seen from their end, are moments.
+    /// Show a self-stress in the kinematic scheme as arrows on the links that it loads (number from `ozols analyze`). Straight
+    /// arrows are forces; arrows with two heads, arcs if seen from their end, are moments.
     #[arg(long, value_name = "K", conflicts_with_all = ["motion", "stroke", "drive"])]
     self_stress: Option<usize>,
-    /// The way of the drive from the pose of the file, such as 0:90deg:60 or -5:5:60 (lengths in the file's unit): from, to,
-    /// pictures less one. As far as it goes where it is left out. Without --motion the kinematic scheme stands still, with the
-    /// ways of its points over the stroke.
+    /// Range of the drive from the drawn pose, as FROM:TO:STEPS, for example 0:90deg:60 or -5:5:60 (lengths in the file's unit)
+    /// [default: as far as it can move]. Without --motion the kinematic scheme stands still and shows the paths of its points
+    /// over the stroke.
     #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
     stroke: Option<String>,
-    /// The joint that moves, where it is not the file's drive: 0-1, or 0-1:tz for one of several freedoms.
+    /// Joint that moves instead of the file's drive: 0-1, or 0-1:tz for one of several freedoms.
     #[arg(long, value_name = "JOINT")]
     drive: Option<String>,
-    /// PNG instead of SVG (where built with the feature `png`); a file named .png is one anyway.
+    /// PNG instead of SVG (if built with the feature `png`); a file named .png is always PNG.
     #[arg(long)]
     png: bool,
-    /// Pixels of a PNG for each of the drawing's; 2 by default.
+    /// Pixels of a PNG per pixel of the drawing [default: 2].
     #[arg(long, value_name = "X")]
     scale: Option<f64>,
     /// Width of a PNG in pixels.
@@ -73,18 +73,18 @@ pub(in crate::cli) struct Draw {
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    #[command(flatten, next_help_heading = "The list that --variant is of")]
+    #[command(flatten, next_help_heading = "The list that --variant refers to")]
     which: Which,
 }
 
 impl Draw {
-    /// Whether a motion is shown, which only the kinematic scheme can.
+    /// Returns true if a motion is shown; only the kinematic scheme can show one.
     fn moves(&self) -> bool {
         self.motion || self.stroke.is_some() || self.drive.is_some()
     }
 }
 
-/// The direction towards the reader that a side stands for.
+/// Parses a side as a direction towards the reader.
 fn side(text: &str) -> Result<[f64; 3], String> {
     match text.trim() {
         "x" => Ok([1.0, 0.0, 0.0]),
@@ -99,7 +99,7 @@ fn side(text: &str) -> Result<[f64; 3], String> {
     }
 }
 
-/// The direction that goes up.
+/// Parses the direction that points up.
 fn axis(text: &str) -> Result<[f64; 3], String> {
     match text.trim() {
         "x" => Ok([1.0, 0.0, 0.0]),
@@ -111,7 +111,7 @@ fn axis(text: &str) -> Result<[f64; 3], String> {
     }
 }
 
-/// A direction as three numbers.
+/// Parses a direction as three numbers.
 fn numbers(text: &str) -> Option<[f64; 3]> {
     let parts: Option<Vec<f64>> = text.split(',').map(|p| p.trim().parse().ok()).collect();
     let direction: [f64; 3] = parts?.try_into().ok()?;
@@ -126,7 +126,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
             || a.self_stress.is_some()
             || a.kind == DrawKind::Kinematic
             || (a.view.is_none() && a.up.is_none()),
-        "--view and --up are for the kinematic scheme, which has coordinates: add --kind kinematic"
+        "--view and --up need the kinematic scheme, which has coordinates; add --kind kinematic"
     );
     let mut mechanism = load::mechanism(&a.file)?;
     let Some(state) = mechanism.state(&a.state) else {
@@ -166,7 +166,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     })
 }
 
-/// The drawing that is asked for.
+/// Returns the drawing that is asked for.
 fn drawing(a: &Draw, subject: &Subject<'_>, found: &[StateAnalysis]) -> anyhow::Result<Drawing> {
     let sight = Sight {
         toward: a.view,
@@ -185,7 +185,7 @@ fn drawing(a: &Draw, subject: &Subject<'_>, found: &[StateAnalysis]) -> anyhow::
     })
 }
 
-/// The kinematic scheme with a self-stress, counted from 0, as arrows.
+/// Draws the kinematic scheme with a self-stress, counted from 0, as arrows.
 fn stressed(
     a: &Draw,
     subject: &Subject<'_>,
@@ -200,14 +200,14 @@ fn stressed(
             "state {} has {}",
             a.state,
             match all.len() {
-                0 => "no self-stress: nothing in it is redundant".to_owned(),
+                0 => "no self-stress, as it has no redundant constraint".to_owned(),
                 n => format!("self-stresses 1 to {n}, in the order of `ozols analyze`"),
             }
         );
     };
     ensure!(
         stress.joints.iter().any(|w| w.borne.is_some()),
-        "self-stress {} is too large: its numbers were not computed",
+        "self-stress {} was not computed, because its numbers are too large",
         k + 1
     );
     Ok(draw::kinematic_stressed(
@@ -218,7 +218,7 @@ fn stressed(
     ))
 }
 
-/// The kinematic scheme with its motion, or with the ways of its points.
+/// Draws the kinematic scheme with its motion, or with the paths of its points.
 fn moving(
     a: &Draw,
     subject: &Subject<'_>,
@@ -237,19 +237,19 @@ fn moving(
     })
 }
 
-/// What PNG is wanted, if it is; said before any work is done.
+/// Returns the size of the PNG, if one is asked for. Reports mistakes before any work is done.
 fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
     if !a.png && !picture::named(a.output.as_deref()) {
         ensure!(
             a.scale.is_none() && a.width.is_none(),
-            "--scale and --width are for PNG: add --png, or -o with a name that ends in .png; SVG is of any size"
+            "--scale and --width are for PNG; add --png, or -o with a name that ends in .png (SVG scales to any size)"
         );
         return Ok(None);
     }
     picture::there()?;
     ensure!(
         a.output.is_some() || !std::io::stdout().is_terminal(),
-        "a PNG is no text for a terminal: give a file with -o"
+        "a PNG cannot be shown in the terminal; write it to a file with -o"
     );
     let scale = a.scale.unwrap_or(picture::SCALE);
     ensure!(

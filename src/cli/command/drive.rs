@@ -13,25 +13,25 @@ use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 
-/// Each may take [`PATIENCE`](crate::drive::programme::PATIENCE) swings.
+/// Maximum number of samples; each may take [`PATIENCE`](crate::drive::programme::PATIENCE) swings.
 const MOST_SAMPLES: usize = 1_000_000;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Drive {
     #[command(flatten)]
     pub(in crate::cli) file: File,
-    /// Also the share of swings that end in their latch where stiffness, inertia, losses, cam and latches are out by up to so much
-    /// of themselves: 0.05 is 5 %.
+    /// Also report the share of swings that latch if stiffness, inertia, losses, cam and latches vary by up to this fraction:
+    /// 0.05 is 5 %.
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub(in crate::cli) tolerance: Option<f64>,
-    /// How many samples.
+    /// Number of samples.
     #[arg(long, value_name = "N", requires = "tolerance", default_value = "200")]
     pub(in crate::cli) samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(in crate::cli) format: TextOrJson,
-    /// Also write charts, each as SVG and CSV, the cam's profile as SVG, CSV and DXF, and the payload's motion on the first
-    /// disc for `ozols grip --motion`, into this folder.
+    /// Also write to this folder: charts as SVG and CSV, the cam's profile as SVG, CSV and DXF, and the payload's motion on the
+    /// first disc for `ozols grip --motion`.
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
@@ -81,7 +81,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
                 let width = output::width(a.output.as_deref());
                 write!(out, "{}", text::drive(&shown, width))?;
                 if a.svg.is_none() && shown.design.is_some() {
-                    let gives = "charts of the programme, angle and energy over time, and the cam's profile where its radii are stated";
+                    let gives = "charts of the programme, angle and energy over time, and the cam's profile if its radii are given";
                     let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);
                     write!(out, "{}", next_commands::text(&[charts], width))?;
                 }

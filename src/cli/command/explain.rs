@@ -15,16 +15,15 @@ use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Explain {
-    /// The term, such as sigma, σ, or redundant constraint, or a joint type, such as sphere-in-cylinder; all terms where left
-    /// out.
+    /// Term, such as sigma, σ or redundant constraint, or joint type, such as sphere-in-cylinder [default: list all].
     #[arg(value_name = "TERM")]
     term: Vec<String>,
-    /// Draw the joint type into this file, as SVG, or as PNG where its name ends in .png (where built with the feature `png`).
+    /// Draw the joint type into this file, as SVG, or as PNG if its name ends in .png (if built with the feature `png`).
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
-/// Columns of running text where the output is no terminal.
+/// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;
 
 pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
@@ -36,7 +35,7 @@ pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
             writeln!(out, "\n{}", pair::all(output::width(None)))?;
             writeln!(
                 out,
-                "\nozols explain TERM says more of one, and of a joint type."
+                "\nozols explain TERM explains one of them, or a joint type."
             )?;
             Ok(Done::Found)
         });
@@ -52,7 +51,7 @@ pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
     }
     ensure!(
         a.output.is_none(),
-        "-o draws a joint type, and {word:?} is none; they are: {}",
+        "-o draws a joint type, and {word:?} is not one; they are: {}",
         JointType::NAMED.iter().join(", ")
     );
     let Some(term) = terms.find(&word) else {
@@ -65,7 +64,7 @@ pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
             .iter()
             .map(|w| terms.find(w).map_or(*w, |t| t.name.as_str()));
         bail!(
-            "no term and no joint type {word:?}{} (`ozols explain` lists all)",
+            "no term or joint type {word:?}{}; run `ozols explain` for the list",
             did_you_mean::question(&names.unique().collect_vec())
         )
     };

@@ -20,24 +20,24 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::PathBuf;
 
-/// The formats of the mechanism file: that which holds exact numbers, and the same as JSON.
+/// The formats of the mechanism file: TOML, which holds exact numbers, and the same as JSON.
 const TOML: &str = "toml";
 const JSON: &str = "json";
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Export {
-    /// A path, `-`, or the name of a built-in mechanism. A robot description (URDF, MJCF or SDF, by its root element) or a CAD
-    /// assembly (FreeCAD's .FCStd, OndselSolver's .asmt) is read as the options below say.
+    /// A path, `-`, or the name of a built-in mechanism. A robot description (URDF, MJCF or SDF, by its root element) or CAD
+    /// assembly (FreeCAD's .FCStd, OndselSolver's .asmt) is read according to the options below.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Named,
     #[command(flatten)]
     reading: Reading,
-    /// The format.
+    /// Output format.
     #[arg(long, value_parser = written())]
     to: String,
     #[command(flatten)]
     chosen: Chosen,
-    /// The state that the search takes in besides the free one.
+    /// State that the search includes in addition to the free one.
     #[arg(long, value_name = "STATE", requires = "chosen")]
     state: Option<String>,
     #[command(flatten)]
@@ -84,7 +84,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     })
 }
 
-/// Returns the robot description or the CAD assembly that FILE names; none where it names neither.
+/// Returns the robot description or CAD assembly that FILE names. `None` if FILE is neither.
 fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
     if load::is_described(&a.file)? {
         return Ok(Some(description(a.file.path(), &a.reading.options()?)?));
@@ -93,7 +93,7 @@ fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
     let flag = flags.split(' ').next().unwrap_or_default();
     ensure!(
         flag.is_empty(),
-        "{flag} is for robot descriptions, which {} is none of; give a URDF, MJCF or SDF file, or leave {flag} out",
+        "{flag} is for robot descriptions, and {} is not one; give a URDF, MJCF or SDF file, or omit {flag}",
         a.file
     );
     Ok(None)
@@ -124,12 +124,12 @@ fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     Ok(Done::Found)
 }
 
-/// An assembly of a CAD program, in its own document: with the joint types of what is chosen.
+/// Writes an assembly of a CAD program in its own format, with the joint types of the chosen variant.
 fn own(a: &Export) -> anyhow::Result<Done> {
     let imported = description(a.file.path(), &a.reading.options()?)?;
     ensure!(
         imported.format.word == a.to,
-        "--to {} writes a document of {} with other joint types; {} is none",
+        "--to {} writes a document of {} with other joint types; {} is not one",
         a.to,
         formats::written()
             .find(|f| f.word == a.to)
@@ -150,7 +150,7 @@ fn own(a: &Export) -> anyhow::Result<Done> {
     })
 }
 
-/// A mechanism in a format; what is lost is said, after what was left behind before.
+/// Converts a mechanism to a format and reports what is lost, after the notes of the import.
 pub(in crate::cli) fn text(
     m: &Mechanism,
     to: &str,

@@ -23,19 +23,19 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Fix {
-    /// A robot description (URDF, MJCF or SDF), or a CAD assembly (FreeCAD, OndselSolver), whose joints get other types.
+    /// Robot description (URDF, MJCF or SDF) or CAD assembly (FreeCAD, OndselSolver) whose joints get other types.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: PathBuf,
     #[command(flatten)]
     reading: Reading,
-    /// A joint, loop or coupling that may be changed (repeatable); by default all but drives.
+    /// Joint, loop or coupling that may be changed (repeatable) [default: all except drives].
     #[arg(long, value_name = "NAME", conflicts_with = "chosen")]
     at: Vec<String>,
     #[command(flatten)]
     chosen: Chosen,
     #[command(flatten)]
     which: Which,
-    /// Write to a file instead of standard output. Beside the description, so that its meshes and includes are found.
+    /// Write to a file instead of standard output. Put it next to the description, so that its meshes and includes are found.
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -59,7 +59,7 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     let mark = if bytes.starts_with(mark) { mark } else { b"" };
     let text = [mark, &edited].concat();
     let again = api::description_of(&a.file, &text, &options).context(
-        "the edited file cannot be read again; nothing is written; report this with the file",
+        "the edited file cannot be read again; nothing was written; report this with the file",
     )?;
     let found = lint::look(&again.mechanism, Some(&again.origin))?;
     let (lasting, after) = (found.lasting, found.analysis);
@@ -95,7 +95,7 @@ fn as_planned(
 ) -> anyhow::Result<()> {
     ensure!(
         (after.mobility, after.redundant) == (plan.mobility, plan.redundant),
-        "read again, the edited file has W = {}, σ = {} where W = {}, σ = {} was to be; nothing is written",
+        "the edited file has W = {}, σ = {} when read again, but W = {}, σ = {} was expected; nothing was written",
         after.mobility,
         after.redundant,
         plan.mobility,
@@ -103,32 +103,32 @@ fn as_planned(
     );
     ensure!(
         a.chosen.place().is_some() || lasting == 0 || after.at_most().is_some(),
-        "read again, the edited file has {lasting} redundant over its motion; nothing is written; look at another pose (--pose)"
+        "the edited file still has {lasting} redundant over its motion when read again; nothing was written; try another pose (--pose)"
     );
     Ok(())
 }
 
-/// What the figures of the edited file do not say, a line each.
+/// Returns the limits of the figures of the edited file, a line each.
 fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> String {
     let mut lines = String::new();
     if after.redundant > lasting && after.at_most().is_none() {
         lines += &format!(
-            "  {} redundant at this pose only, where the model is in a special place\n",
+            "  {} redundant at this pose only, because the model is in a special position\n",
             after.redundant - lasting
         );
     }
     if let n @ 1.. = imported.report.left_out() {
         lines += &format!(
-            "  {} of FILE left out, which may be redundant and lower W; `ozols lint` says what they are of\n",
+            "  {} of FILE omitted, which may be redundant and lower W; `ozols lint` lists them\n",
             plural(n, "row")
         );
     }
     if imported.origin.is_of_this_pose() {
-        lines += "  figures are of the pose of the file alone, where joints are open or taken as they are there; `ozols lint OUT --assemble` closes them\n";
+        lines += "  figures hold in the pose of the file only, as joints are open or assumed there; `ozols lint OUT --assemble` closes them\n";
     }
     if let Some((_, most)) = after.at_most() {
         lines += &format!(
-            "  as written; within their digits the coordinates leave open whether up to {most} stay redundant: look at other joints (--at), or give more digits\n"
+            "  as written; within their digits the coordinates leave open whether up to {most} stay redundant; try other joints (--at), or give more digits\n"
         );
     }
     lines
@@ -147,7 +147,7 @@ fn summary(
             0 => "nothing is redundant".to_owned(),
             n => format!("{n} redundant"),
         };
-        return format!("{file}: {redundant} (W = {w}, {sure}); written as it is\n");
+        return format!("{file}: {redundant} (W = {w}, {sure}); written unchanged\n");
     }
     let n = told.len();
     let mut out = format!("{file}: {}\n", plural(n, what));
@@ -167,7 +167,7 @@ fn summary(
     out + &row("before:", before) + &row("after:", after)
 }
 
-/// Whether all that may be changed is there.
+/// Checks that everything that may be changed exists.
 fn known(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
     let coupled = |q: usize| m.couplings[q].name(m);
     for name in at {
@@ -175,13 +175,13 @@ fn known(m: &Mechanism, at: &[String]) -> anyhow::Result<()> {
             || (0..m.couplings.len()).any(|q| coupled(q) == *name);
         ensure!(
             known,
-            "--at {name}: there is no such joint, loop or coupling; `ozols lint` names them"
+            "--at {name}: no such joint, loop or coupling; `ozols lint` names them"
         );
     }
     Ok(())
 }
 
-/// The cheapest releases that remove all redundant constraints.
+/// Returns the cheapest releases that remove all redundant constraints.
 fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let m = &imported.mechanism;
     let coupled = |q: usize| m.couplings[q].name(m);
@@ -197,7 +197,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     let most = found.lasting;
     ensure!(
         found.analysis.at_most().is_none(),
-        "what is redundant is not decided: coordinates are rounded too coarsely, or the pose is next to a special one; look at another pose (--pose), or give more digits (`ozols check` names the coordinates)"
+        "redundancy is undecided, because coordinates are rounded too coarsely or the pose is next to a special one; try another pose (--pose), or give more digits (`ozols check` names the coordinates)"
     );
     let some = found.cheapest.len();
     if some < most {
@@ -207,7 +207,7 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
             "of --at"
         };
         bail!(
-            "the joints {of} remove {some} of {most} redundant constraints; `ozols lint` tells what removes each{}",
+            "the joints {of} remove {some} of {most} redundant constraints; `ozols lint` lists what removes each{}",
             if at.is_empty() {
                 ", --at takes more joints"
             } else {
@@ -226,15 +226,15 @@ fn cheapest(imported: &Imported, at: &[String]) -> anyhow::Result<(StateAnalysis
     Ok((found.analysis, plan))
 }
 
-/// Those of a variant of the search. Where nothing is redundant there is nothing to mend: variants only let more move, and
-/// are made where a mobility is asked for.
+/// Returns the releases of a variant of the search. If nothing is redundant, variants only add mobility; they are applied if a
+/// mobility is asked for.
 fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let m = &imported.mechanism;
     let request = a.chosen.of(a.which.request(None)?);
     let before = api::analyze(m)?.remove(0);
     if before.redundant == 0 && before.at_most().is_none() && request.max_mobility.is_none() {
         note(format!(
-            "nothing is redundant, so {} {k} of the search would only add mobility; --max-mobility makes the change all the same",
+            "nothing is redundant, so {} {k} of the search would only add mobility; use --max-mobility to apply it nevertheless",
             request.one()
         ));
         let plan = TypePlan {
@@ -247,7 +247,7 @@ fn of_search(imported: &Imported, a: &Fix, k: usize) -> anyhow::Result<(StateAna
     Ok((before, changed(m, request, k, tell)?))
 }
 
-/// The first idea of the search among the types that the CAD program has, at the joints that may be changed.
+/// Returns the first idea of the search among the types that the CAD program has, at the joints that may be changed.
 fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, TypePlan)> {
     let mut m = imported.mechanism.clone();
     let before = api::analyze(&m)?.remove(0);
@@ -269,7 +269,7 @@ fn other_types(imported: &Imported, a: &Fix) -> anyhow::Result<(StateAnalysis, T
     }
     let request = a.which.request(None)?;
     let plan = types::first(&m, request, tell).context(
-        "no choice of joint types removes all that is redundant and keeps the working motion; `ozols search` tells what stands in the way",
+        "no choice of joint types removes all redundant constraints and keeps the output motion; `ozols search` explains why",
     )?;
     Ok((before, plan))
 }

@@ -28,33 +28,33 @@ use std::path::{Path, PathBuf};
 pub(in crate::cli) struct Grip {
     #[command(flatten)]
     file: File,
-    /// A further acceleration of the gripper in m/s², in its axes (repeatable): 5,0,-2.
+    /// Additional acceleration of the gripper in m/s², in its axes, such as 5,0,-2 (repeatable).
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     acceleration: Vec<[f64; 3]>,
-    /// A further acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
+    /// Additional acceleration of the gripper in m/s², in any direction; `ozols drive` prints one.
     #[arg(long, value_name = "A")]
     any_acceleration: Option<f64>,
-    /// A motion as CSV, one step a line: columns ax, ay, az in m/s², and if wanted gx, gy, gz (gravity in the gripper's axes),
-    /// time, diameter. The least clamping is found for every step.
+    /// Motion as CSV, one step per line: columns ax, ay, az in m/s², and optionally gx, gy, gz (gravity in the gripper's axes),
+    /// time, diameter. Computes the least clamping for every step.
     #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
     motion: Option<PathBuf>,
-    /// How firmly the contacts of any clamped mechanism hold the part, with friction and without, and how far from its loss; the
-    /// file needs no [workload.grip].
+    /// Report how firmly the contacts of any clamped mechanism hold the part, with and without friction, and the margin; the file
+    /// needs no [workload.grip].
     #[arg(long, conflicts_with_all = ["acceleration", "any_acceleration", "motion", "svg"])]
     closure: bool,
-    /// The clamped state; the first with contacts by default.
+    /// Clamped state [default: the first with contacts].
     #[arg(long, requires = "closure")]
     state: Option<String>,
-    /// Also the share of samples with closure whose contacts are out by up to so much, in the file's unit of length.
+    /// Also report the share of samples that keep closure if contacts are misplaced by up to this length, in the file's unit.
     #[arg(long, value_name = "LENGTH", requires = "closure")]
     tolerance: Option<f64>,
-    /// How many samples.
+    /// Number of samples.
     #[arg(long, value_name = "N", requires = "tolerance", default_value = "200")]
     samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextOrJson,
-    /// Also write charts, each as SVG and CSV, into this folder.
+    /// Also write charts to this folder, each as SVG and CSV.
     #[arg(long, value_name = "DIR")]
     svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
@@ -159,7 +159,7 @@ fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Ve
     Ok(steps)
 }
 
-/// The state asked for, or the first in which a part is clamped.
+/// Returns the state asked for, or the first in which a part is clamped.
 fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
     let Some(name) = asked else {
         let clamped = |s: &StateId| m.joints_in(*s).any(|j| object_at(m, j).is_some());

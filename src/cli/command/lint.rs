@@ -58,7 +58,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                         Err(passed) => {
                             let good = passed
                                 .rigid
-                                .then(|| ("nothing is redundant".to_owned(), Tone::Good));
+                                .then(|| ("no redundant constraints".to_owned(), Tone::Good));
                             (passed.text(), good)
                         }
                         Ok(lint) => {
@@ -80,7 +80,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                 let mended = found
                     .iter()
                     .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
-                let gives = "the cheapest in your own file, all else as it is";
+                let gives = "apply the cheapest fix; all else stays unchanged";
                 let flags = a.reading.flags();
                 let steps: Vec<NextCommand> = mended
                     .map(|l| NextCommand::mend(&l.file, &flags, gives))
@@ -97,7 +97,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
     })
 }
 
-/// What is found in one file.
+/// Examines one file.
 fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
     let (mechanism, imported) = if robots::is_description(file) && file.path().is_file() {
         let imported = description(file.path(), options)?;
@@ -105,7 +105,7 @@ fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
     } else {
         ensure!(
             options.loops.is_none(),
-            "--loops is for robot descriptions, which {file} is none of"
+            "--loops is for robot descriptions, and {file} is not one"
         );
         let (name, bytes) = load::plain(file)?;
         (mechanism_from_bytes(&name, &bytes)?, None)
@@ -123,7 +123,7 @@ fn one(file: &Named, options: &robots::Options) -> anyhow::Result<Found> {
     })
 }
 
-/// A file that is passed over, said at once where something is wrong with it.
+/// Records a skipped file, and reports at once if something is wrong with it.
 fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
     let rigid = output::problems(e).is_some_and(ImportError::is_rigid);
     if !rigid {
@@ -133,7 +133,7 @@ fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
     PassedOver::new(file, &format!("{e:#}"), rigid)
 }
 
-/// What a mechanism holds twice. Drives stay as they are, and what no format has a place for.
+/// Finds the redundant constraints of a mechanism. Drives, and joints that no format can change, stay unchanged.
 pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
     look_at(m, origin, &|r| match *r {
         Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
@@ -141,12 +141,12 @@ pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Re
     })
 }
 
-/// Whether a joint is a drive, or moved by an actuator in a way that a mechanism has no word for.
+/// Returns true if a joint is a drive, or is moved by an actuator that a mechanism cannot represent.
 pub(in crate::cli) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
     m.joints[joint].drive || origin.is_some_and(|o| o.is_actuated(joint))
 }
 
-/// The same with releases that are wanted alone.
+/// Finds the redundant constraints, with only the given releases.
 pub(in crate::cli) fn look_at(
     m: &Mechanism,
     origin: Option<&Origin>,

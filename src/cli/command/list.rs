@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct List {
-    /// Only those with every one of these words in name, family or description.
+    /// List only mechanisms with all of these words in name, family or description.
     #[arg(value_name = "WORD")]
     words: Vec<String>,
     /// Output format.
@@ -22,11 +22,12 @@ pub(in crate::cli) struct List {
 enum ListFormat {
     Text,
     Json,
-    /// One state of one mechanism a line.
+    /// One line per state of each mechanism.
     Csv,
 }
 
-/// What `--format csv` prints of all: reading and ranking every file takes twenty times as long. A test holds it against the files.
+/// Output of `--format csv` for all mechanisms; reading and ranking every file takes twenty times as long. A test compares it
+/// with the files.
 const ALL: &str = include_str!("../../../catalogs/list.csv");
 
 /// A state of a mechanism as data; the same keys in JSON and CSV.
@@ -44,7 +45,7 @@ struct ListRow {
     description: String,
 }
 
-/// The narrowest column that a description is worth.
+/// Minimum width of a column of descriptions.
 const NARROWEST: usize = 16;
 
 pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
@@ -126,7 +127,7 @@ fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
     })
 }
 
-/// A row for each state of the mechanisms that have all the words.
+/// Returns a row for each state of the mechanisms that have all the words.
 fn wanted(a: &List) -> anyhow::Result<Vec<ListRow>> {
     let words: Vec<String> = a.words.iter().map(|w| w.to_lowercase()).collect();
     let mut out = Vec::new();

@@ -10,13 +10,13 @@ use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct New {
-    /// The file to write; its ending is .toml, and the mechanism is named after it.
+    /// File to write, with the ending .toml; the mechanism is named after it.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: PathBuf,
-    /// The built-in mechanism to start from.
+    /// Built-in mechanism to start from.
     #[arg(long, value_name = "NAME", default_value = "four-bar")]
     from: String,
-    /// Replace a file that is there.
+    /// Replace an existing file.
     #[arg(long)]
     force: bool,
 }
@@ -29,7 +29,7 @@ pub(in crate::cli) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
     let Some(name) = stem.filter(|_| toml) else {
         let like = a.file.with_extension("toml");
         bail!(
-            "{shown} does not end in .toml; name it {}, since only TOML has comments",
+            "{shown} does not end in .toml; name it {}, because only TOML has comments",
             like.display()
         );
     };
@@ -38,7 +38,7 @@ pub(in crate::cli) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
     };
     // A link that leads nowhere is there, too.
     if !a.force && a.file.symlink_metadata().is_ok() {
-        bail!("{shown} is there already; choose another name, or replace it with --force");
+        bail!("{shown} already exists; choose another name or use --force");
     }
     let text = template::commented(text, &a.from, &name)
         .with_context(|| format!("built-in mechanism {}", a.from))?;

@@ -23,7 +23,7 @@ use std::sync::Arc;
 pub(in crate::cli) struct Report {
     #[command(flatten)]
     file: File,
-    /// How many of the best variants the page holds, 10000 at most.
+    /// Number of best variants on the page, at most 10000.
     #[arg(long, value_name = "K", default_value_t = 200)]
     top: usize,
     #[command(flatten)]
@@ -33,7 +33,7 @@ pub(in crate::cli) struct Report {
     output: Option<PathBuf>,
 }
 
-/// A page with more variants than this is of no use to anybody.
+/// Maximum number of variants on a page.
 const MOST: usize = 10_000;
 
 pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
@@ -82,7 +82,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
     write(Ok(variants), ideas)
 }
 
-/// What the options ask of the search.
+/// Returns the search that the options ask for.
 fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
     ensure!(
         (1..=MOST).contains(&a.top),
@@ -94,7 +94,7 @@ fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
     })
 }
 
-/// A list of the page.
+/// Builds a list of the page.
 fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
     let variants = given.by_ref().collect();
     Redesigns {
@@ -105,7 +105,7 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
     }
 }
 
-/// The commands that give what the page shows.
+/// Returns the commands that reproduce what the page shows.
 fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let file = a.file.typed();
     let more = list_options(mechanism, a, request);
@@ -118,7 +118,7 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
                 "This page",
                 format!("ozols report {file} {more} -o report.html"),
             ),
-            row("The mechanism as it is", format!("ozols analyze {file}")),
+            row("Original mechanism", format!("ozols analyze {file}")),
             row(
                 "The variants, as text or data",
                 format!("ozols search {file} {more} --format text|json|csv"),
@@ -141,12 +141,12 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     }
 }
 
-/// Words of a command, those left out that are empty.
+/// Joins the words of a command, without empty ones.
 fn joined(words: &[&str]) -> String {
     words.iter().filter(|w| !w.is_empty()).join(" ")
 }
 
-/// The options that the list of the page was made with.
+/// Returns the options that made the list of the page.
 fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String {
     let mut more = vec![flags(mechanism, request)];
     if request.poses > 0 {
@@ -156,7 +156,7 @@ fn list_options(mechanism: &Mechanism, a: &Report, request: &Request) -> String 
     more.iter().filter(|m| !m.is_empty()).join(" ")
 }
 
-/// The commands about one variant or idea, as `name` says, with `{}` for its number.
+/// Returns the commands about one variant or idea, called `name`, with `{}` for its number.
 fn of_one(
     mechanism: &Mechanism,
     file: &str,
@@ -182,6 +182,6 @@ fn of_one(
     };
     vec![
         row("The same drawing", "ozols draw", "-o NAME-{}.svg"),
-        row("It as a file", "ozols export", "--to toml -o NAME-{}.toml"),
+        row("Save as file", "ozols export", "--to toml -o NAME-{}.toml"),
     ]
 }

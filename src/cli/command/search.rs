@@ -21,9 +21,9 @@ use std::path::PathBuf;
 enum SearchFormat {
     Text,
     Json,
-    /// One variant a line.
+    /// One variant per line.
     Jsonl,
-    /// One variant a line.
+    /// One variant per line.
     Csv,
 }
 
@@ -31,7 +31,7 @@ enum SearchFormat {
 enum SearchMethod {
     /// The span diagram.
     Diagram,
-    /// Look at every variant; counts only. For checking and comparison.
+    /// Analyse every variant; counts only. For checking and comparison.
     Brute,
 }
 
@@ -40,28 +40,28 @@ enum SearchMethod {
 pub(in crate::cli) struct Search {
     #[command(flatten)]
     file: File,
-    /// How many of the best variants to give.
+    /// Number of best variants to list.
     #[arg(long, value_name = "K", default_value_t = 10)]
     top: usize,
-    /// Give every admissible variant, cheapest first.
+    /// List every admissible variant, cheapest first.
     #[arg(long, conflicts_with_all = ["top", "sample", "count", "rank", "distinct"])]
     all: bool,
-    /// Give N admissible variants drawn at random, each with the same chance, instead of the best.
+    /// List N admissible variants chosen uniformly at random.
     #[arg(long, value_name = "N", conflicts_with_all = ["top", "count", "rank", "distinct"])]
     sample: Option<usize>,
-    /// Counts only.
+    /// Print only the counts.
     #[arg(long, conflicts_with = "rank")]
     count: bool,
-    /// Find the best without counting all: as fast as a search for a cost, however many variants there are.
+    /// List the best variants without counting all of them (fast however many there are).
     #[arg(long, conflicts_with_all = ["all", "sample", "count"])]
     no_count: bool,
-    /// Every variant in the text, though a short list that is the cheapest for certain would give the first of each idea only
-    /// (see --distinct).
+    /// List every variant in the text. By default a short list that is proven the cheapest gives only the first of each idea (see
+    /// --distinct).
     #[arg(long, conflicts_with = "distinct")]
     no_distinct: bool,
     #[command(flatten)]
     checked: Checked,
-    /// Diagram, or brute force for checking.
+    /// Span diagram, or brute force for checking.
     #[arg(long, value_enum, default_value = "diagram")]
     method: SearchMethod,
     /// Also print the counts by mobility, σ by contour, and what each of the first three ideas does.
@@ -70,7 +70,7 @@ pub(in crate::cli) struct Search {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: SearchFormat,
-    /// End a CSV that is not the whole list with a line that says so, `# ...`; without it that is said on standard error.
+    /// End a CSV that is not the whole list with a comment line, `# ...`; without this option the note goes to standard error.
     #[arg(long)]
     comment: bool,
     /// Write to a file instead of standard output.
@@ -78,7 +78,7 @@ pub(in crate::cli) struct Search {
     output: Option<PathBuf>,
 }
 
-/// A list this long is one to be read.
+/// Length of a list that people read.
 const SHORT: usize = 100;
 
 impl Search {
@@ -99,9 +99,9 @@ impl Search {
         })
     }
 
-    /// Whether people are given the first variant of each idea: the first rows of all variants are often one idea many times.
-    /// Not where a search was cut short: of ideas none is then proven the cheapest, of variants some may be. Nor where further poses
-    /// are looked at: the first variant of an idea may owe its place to this one, and the next not.
+    /// Returns true if people are given the first variant of each idea: the first rows of all variants are often one idea many
+    /// times. False if a search was cut short, because then no idea is proven the cheapest. Also false if further poses are
+    /// checked: the first variant of an idea may owe its place to this pose, and the next may not.
     fn tells_ideas(&self, outcome: &Outcome) -> bool {
         let short = matches!(outcome.request.list, List::Top(1..=SHORT));
         let text = matches!(self.format, SearchFormat::Text);
@@ -172,7 +172,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     Ok(done)
 }
 
-/// How many there are, and whether that is good news.
+/// Returns the number of redesigns in words, and whether that is good news.
 fn verdict(outcome: &Outcome) -> (String, Tone) {
     let total = &outcome.listed_counts().total;
     if outcome.numeric.is_some() {

@@ -88,7 +88,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
         && s.contour_groups.is_empty()
     {
         bail!(
-            "{} has no four-link group with a closed contour, which --method delta and projective are for; use --method equilibrium",
+            "{} has no four-link group with a closed loop, which --method delta and projective need; use --method equilibrium",
             m.name
         );
     }
@@ -101,12 +101,13 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     })
 }
 
-/// The model that the options ask for; `own` is whether the method solves groups in the plane by itself.
+/// Returns the model that the options ask for; `own` is true if the method solves groups in the plane by itself.
 fn model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow::Result<Model> {
     if a.unilateral && !m.joints_in(state).any(|j| object_at(m, j).is_some()) {
         bail!(
-            "--unilateral is for contacts with an object, and state {} of {} has none: a link of role = \"object\", and joints of \
-             type fixed, planar, cylinder-on-plane or sphere-on-plane to it",
+            "--unilateral is for contacts with a clamped part, and state {} of {} has none; add a \
+            link of role = \"object\", and joints of type fixed, planar, cylinder-on-plane or \
+            sphere-on-plane to it",
             a.state,
             m.name
         );
@@ -163,7 +164,7 @@ fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<
     Ok(())
 }
 
-/// What to run next.
+/// Returns the next commands to suggest.
 fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCommand> {
     let file = a.file.as_deref().unwrap_or(&m.name);
     let next = |command, more, gives| NextCommand::new(command, file, more, gives);
@@ -190,7 +191,7 @@ fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCo
         ToldReactions::Pose(_) => vec![next(
             "search",
             "",
-            "redesigns without redundant constraints, whose reactions are the only ones",
+            "redesigns without redundant constraints, whose reactions are unique",
         )],
         ToldReactions::Planar(_) | ToldReactions::Stroke(_) => Vec::new(),
     }
@@ -226,7 +227,7 @@ fn stability(
     let found = cycle::statics(m, state, stroke)?;
     let base = found.heaviest_contour_group().with_context(|| {
         format!(
-            "{} has no four-link group with a closed contour to compare the methods on",
+            "{} has no four-link group with a closed loop to compare the methods on",
             m.name
         )
     })?;

@@ -15,18 +15,17 @@ use std::process::{Command, Stdio};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct StudioArgs {
-    /// A file to work on, which need not be there yet where it ends in .toml, or the name of a built-in mechanism to start from; an
-    /// empty sheet where left out.
+    /// File to work on (a new one must end in .toml), or name of a built-in mechanism to start from [default: an empty sheet].
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Option<Named>,
     #[command(flatten)]
     loops: Loops,
-    /// Print the address, and leave it to you to open it.
+    /// Print the address without opening a browser.
     #[arg(long)]
     no_open: bool,
 }
 
-/// What an argument means. A file wins over a built-in mechanism of the same name.
+/// Returns what an argument opens. A file takes precedence over a built-in mechanism of the same name.
 fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
     let here = PathBuf::from(".");
     let Some(file) = file else {
@@ -35,11 +34,11 @@ fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
     let path = file.path();
     ensure!(
         loops.path.is_none() || robots::is_description(file),
-        "--loops is for robot descriptions, which {file} is none of"
+        "--loops is for robot descriptions, and {file} is not one"
     );
     ensure!(
         &**file != "-",
-        "standard input is no file that could be saved; name one"
+        "standard input cannot be saved; give a file name"
     );
     if path.is_file() {
         robots::refuse_foreign(file, &api::bytes(path, MAX_DESCRIPTION_BYTES)?)?;
@@ -76,13 +75,13 @@ pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Don
         Ok(Done::Found)
     })?;
     if !a.no_open && !shown(&address) {
-        output::note("no browser could be started: open the address above in one\n");
+        output::note("no browser could be started; open the address above in one\n");
     }
     output::note("It ends when its window is closed, or with Ctrl-C.\n");
     let unsaved = studio.serve(|words| output::say(&format!("{words}\n")))?;
     if let Some(path) = unsaved {
         output::say(&format!(
-            "what was not saved is in {}; `ozols studio` offers it when the file is opened again\n",
+            "unsaved work is in {}; `ozols studio` offers it when the file is opened again\n",
             path.display()
         ));
     }

@@ -1,4 +1,4 @@
-//! Which joints of a CAD assembly to give another type, as the search has it.
+//! Joints of a CAD assembly that need another type, found by the search.
 
 use crate::cli::option::variant;
 use crate::geom::vector::Vector;
@@ -10,20 +10,20 @@ use crate::score::run::Event;
 use crate::view::lint::TypeChange;
 use anyhow::anyhow;
 
-/// Most joints, and nodes, that are searched unasked: beyond them it may take longer than one waits for.
+/// Maximum number of joints, and of nodes, that are searched without being asked; larger searches may take too long.
 const JOINTS: usize = 40;
 const NODES: usize = 100_000;
-/// Most variants where ranks are numeric: each of them is looked at by itself then.
+/// Maximum number of variants with numeric ranks, because each of them is analysed separately.
 const NUMERIC: usize = 2000;
 
-/// What is to be done, and the W and σ that are to come of it.
+/// The changes to make, and the W and σ that they should give.
 pub(in crate::cli) struct TypePlan {
     pub(in crate::cli) releases: Vec<Release>,
     pub(in crate::cli) mobility: usize,
     pub(in crate::cli) redundant: usize,
 }
 
-/// What variant `k` of a search changes.
+/// Returns the changes of variant `k` of a search.
 pub(in crate::cli) fn changed(
     m: &Mechanism,
     request: Request,
@@ -46,7 +46,7 @@ pub(in crate::cli) fn changed(
     Ok(plan)
 }
 
-/// The first idea of the search; none where it finds none.
+/// Returns the first idea of the search, or `None` if it finds none.
 pub(in crate::cli) fn first(m: &Mechanism, request: Request, tell: fn(Event)) -> Option<TypePlan> {
     let request = Request {
         distinct: true,
@@ -56,8 +56,8 @@ pub(in crate::cli) fn first(m: &Mechanism, request: Request, tell: fn(Event)) ->
     changed(m, request, 1, tell).ok()
 }
 
-/// The joints to change for all that is redundant to go, and W then; none where no choice of types does, or the assembly is
-/// large. `exact` says whether ranks are.
+/// Returns the joints to change so that no constraint is redundant, and W after that. `None` if no choice of types achieves it,
+/// or the assembly is large. `exact` is true if ranks are exact.
 pub(in crate::cli) fn changes(
     m: &Mechanism,
     origin: &Origin,
@@ -76,7 +76,7 @@ pub(in crate::cli) fn changes(
     Some((named(m, origin, &plan.releases)?, plan.mobility))
 }
 
-/// What releases make of the joints of an assembly; none where it is no assembly, or has no such types.
+/// Returns the joint types of an assembly after releases. `None` if the mechanism is not an assembly, or has no such types.
 pub(in crate::cli) fn named(
     m: &Mechanism,
     origin: &Origin,

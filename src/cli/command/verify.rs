@@ -19,7 +19,7 @@ use std::path::PathBuf;
 pub(in crate::cli) struct Verify {
     #[command(flatten)]
     file: File,
-    /// The certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
+    /// Certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
     #[arg(value_name = "CERTIFICATES")]
     certificates: PathBuf,
     /// The certificates were made with `analyze --planar`.
@@ -27,10 +27,11 @@ pub(in crate::cli) struct Verify {
     planar: bool,
 }
 
-/// Largest file of certificates, in bytes.
+/// Maximum size of a file of certificates, in bytes.
 const MOST: usize = 64 << 20;
 
-/// Writes a certificate for each state that has one: of the rank as written, so none where the analysis is of another.
+/// Writes a certificate for each state that has one. A certificate proves the rank as written, so there is none if another
+/// geometry was analysed.
 pub(in crate::cli) fn write(
     path: &Path,
     m: &Mechanism,
@@ -45,9 +46,9 @@ pub(in crate::cli) fn write(
     };
     for (&state, s) in states.iter().zip(found) {
         let certificate = if s.as_written.is_some() || s.at_most().is_some() {
-            Err("a certificate is of what is written, and rounded coordinates mean something else; write roots or expressions".to_owned())
+            Err("a certificate needs the geometry as written, and rounded coordinates represent another; write roots or expressions".to_owned())
         } else if m.has_pi() {
-            Err("a certificate is of exact numbers, and digits of pi stand in a pitch".to_owned())
+            Err("a certificate needs exact numbers, and a pitch contains digits of pi".to_owned())
         } else {
             certify(m, state).map_err(|reason| reason.to_string())
         };

@@ -40,7 +40,7 @@ pub(in crate::cli) fn is_described(file: &Named) -> anyhow::Result<bool> {
         || robots::begins_description(&api::bytes(path, MAX_DESCRIPTION_BYTES)?))
 }
 
-/// Reads each of several; what is wrong with one is said, and takes nothing from the others. Whether nothing was.
+/// Reads each of several files. A problem with one is reported and does not affect the others. Returns true if all could
 pub(in crate::cli) fn each<'a>(
     files: &'a [Named],
     loops: &Loops,
@@ -60,7 +60,8 @@ pub(in crate::cli) fn each<'a>(
     (all, well)
 }
 
-/// The name for messages and the bytes of the mechanism file that an argument names, or that is made of the description it names.
+/// Returns the name for messages, and the bytes of the mechanism file that an argument names or that is converted from its
+/// description.
 pub(in crate::cli) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
     match imported(file)? {
         Some(imported) => {
@@ -71,7 +72,7 @@ pub(in crate::cli) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
     }
 }
 
-/// The same of a file that is no description.
+/// Returns the same for a file that is not a robot description or assembly.
 pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
         kept::keep_standard_input()?;
@@ -83,7 +84,7 @@ pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
             .read_to_end(&mut bytes)?;
         ensure!(
             !bytes.trim_ascii_start().starts_with(b"<"),
-            "standard input is XML; it is read as TOML or JSON alone, so save a robot description in a file and name that"
+            "standard input is XML, but only TOML and JSON can be read from it; save a robot description in a file and name the file"
         );
         return Ok(("standard input".to_owned(), bytes));
     }
@@ -93,7 +94,7 @@ pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
         robots::refuse_foreign(file, &bytes)?;
         ensure!(
             !bytes.trim_ascii_start().starts_with(b"<"),
-            "{file} is XML; robot descriptions are known by their endings, so rename it .urdf, .sdf or .xml"
+            "{file} is XML; robot descriptions are recognized by their endings, so rename it .urdf, .sdf or .xml"
         );
         return Ok((file.to_string(), bytes));
     }
@@ -103,14 +104,14 @@ pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     Ok((format!("{file}.toml"), text.as_bytes().to_vec()))
 }
 
-/// The mechanism of a robot description, with what is doubtful said; none where the argument is no such file.
+/// Returns the mechanism of a robot description and reports doubtful values. `None` if the argument is not such a file.
 fn imported(file: &File) -> anyhow::Result<Option<robots::Imported>> {
     let (file, loops) = (&file.file, &file.loops);
     let path = file.path();
     if !path.is_file() || !robots::is_description(file) {
         ensure!(
             loops.path.is_none(),
-            "--loops is for robot descriptions, which {file} is none of; give a URDF, MJCF or SDF file, or leave --loops out"
+            "--loops is for robot descriptions, and {file} is not one; give a URDF, MJCF or SDF file, or omit --loops"
         );
         return Ok(None);
     }
@@ -127,8 +128,7 @@ pub(in crate::cli) fn tell_doubts(file: &Named, imported: &robots::Imported) {
     }
 }
 
-/// Models a mechanism in the plane of x and y. A coupling of a freedom that leads out of it has nothing to couple there, and is
-/// left out, which is said.
+/// Models a mechanism in the plane of x and y. A coupling of a freedom out of the plane is omitted and reported.
 pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) {
     mechanism.mode = Mode::Planar {
         normal: [0, 0, 1].map(Expr::from),
@@ -143,29 +143,29 @@ pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) {
     if !left.is_empty() {
         let names = left.iter().map(|c| c.name(mechanism)).join(", ");
         crate::cli::terminal::output::note(&format!(
-            "note: --planar leaves out what couples freedoms out of the plane: {names}\n"
+            "note: --planar omits the couplings of freedoms out of the plane: {names}\n"
         ));
     }
     mechanism.couplings = kept;
 }
 
-/// The message for a name that is neither a regular file nor built in.
+/// Returns the message for a name that is neither a regular file nor a built-in mechanism.
 pub(in crate::cli) fn unknown(file: &Named) -> String {
     match std::fs::metadata(file.path()) {
         Ok(m) if m.is_dir() => return format!("{file} is a folder; name a file in it"),
         Ok(m) if !m.is_file() => {
-            return format!("{file} is no regular file; `-` reads standard input");
+            return format!("{file} is not a regular file; `-` reads standard input");
         }
         _ => {}
     }
     let hint = did_you_mean::hint(file, builtin::names());
     format!(
-        "{file} is neither a file nor a built-in mechanism{hint} (`ozols list` shows those built in)"
+        "{file} is neither a file nor a built-in mechanism{hint}; `ozols list` shows the built-in mechanisms"
     )
 }
 
-/// The message for a name that is not built in, where a file would not do.
+/// Returns the message for a name that is not a built-in mechanism, if a file is not allowed.
 pub(in crate::cli) fn no_built_in(name: &str) -> String {
     let hint = did_you_mean::hint(name, builtin::names());
-    format!("{name} is not a built-in mechanism{hint} (`ozols list` shows them)")
+    format!("{name} is not a built-in mechanism{hint}; `ozols list` shows them")
 }

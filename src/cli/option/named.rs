@@ -1,4 +1,4 @@
-//! FILE arguments as they were typed: paths of any bytes, which are told as text.
+//! FILE arguments as typed: paths of any bytes, which are printed as text.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
 use crate::cli::terminal::output;
@@ -10,7 +10,7 @@ use std::fmt;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
-/// A path, `-`, or the name of a built-in mechanism. As a text, what is none in it is replaced.
+/// A path, `-`, or the name of a built-in mechanism. As text, invalid characters are replaced.
 #[derive(Debug, Clone)]
 pub(in crate::cli) struct Named {
     typed: OsString,
@@ -18,7 +18,7 @@ pub(in crate::cli) struct Named {
 }
 
 impl Named {
-    /// What it is as a path.
+    /// Returns the argument as a path.
     pub(in crate::cli) fn path(&self) -> &Path {
         Path::new(&self.typed)
     }
@@ -53,7 +53,7 @@ impl fmt::Display for Named {
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct File {
-    /// A path, `-`, or the name of a built-in mechanism.
+    /// Path, `-`, or name of a built-in mechanism.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: Named,
     #[command(flatten)]
@@ -82,10 +82,10 @@ impl File {
     }
 }
 
-/// The file of loop closures beside a robot description: the same option for every command that takes a FILE.
+/// The file of loop closures of a robot description: the same option for every command that takes a FILE.
 #[derive(Debug, Clone, Default, ClapArgs)]
 pub(in crate::cli) struct Loops {
-    /// A file of loop closures for a robot description (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
+    /// File of loop closures for a robot description (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
     /// example-parallel-robots; Drake's list of ball constraints.
     #[arg(long = "loops", value_name = "SIDE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) path: Option<PathBuf>,
@@ -95,7 +95,8 @@ impl Loops {
     /// Returns the options of an import that reads the file.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    ///
+    /// Returns an error if the file cannot be read.
     pub(in crate::cli) fn options(&self) -> anyhow::Result<Options> {
         let mut options = Options::default();
         if let Some(path) = &self.path {

@@ -1,13 +1,13 @@
-//! Drawings as PNG, where this build makes them.
+//! Drawings as PNG, if this build supports it.
 
 use crate::draw::{Drawing, Size};
 use anyhow::ensure;
 use std::path::Path;
 
-/// Pixels of a PNG for each of the drawing's, where nothing else is asked for.
+/// Pixels of a PNG per pixel of the drawing, by default.
 pub(in crate::cli) const SCALE: f64 = 2.0;
 
-/// Whether a file is a PNG by its name.
+/// Returns true if the name of a file ends in .png.
 pub(in crate::cli) fn named(path: Option<&Path>) -> bool {
     let end = path.and_then(Path::extension);
     end.is_some_and(|e| e.eq_ignore_ascii_case("png"))
@@ -17,26 +17,26 @@ pub(in crate::cli) fn named(path: Option<&Path>) -> bool {
 pub(in crate::cli) fn there() -> anyhow::Result<()> {
     ensure!(
         cfg!(feature = "png"),
-        "this ozols was built without PNG: build it with `cargo build --release --features png`, or write SVG and turn \
-         it into PNG by another program"
+        "this ozols was built without PNG; build it with `cargo build --release --features png`, \
+        or write SVG and convert it with another program"
     );
     Ok(())
 }
 
-/// A drawing as PNG; characters that no font has are told.
+/// Renders a drawing as PNG; reports characters that no font has.
 #[cfg(feature = "png")]
 pub(in crate::cli) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     let picture = crate::draw::png::png(drawing, size)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();
         crate::cli::terminal::output::note(&format!(
-            "warning: no font of this machine has {missing}; they are missing in the PNG\n"
+            "warning: no font on this machine has {missing}; the PNG omits them\n"
         ));
     }
     Ok(picture.png)
 }
 
-/// There is none in this build.
+/// Returns an error, because this build has no PNG.
 #[cfg(not(feature = "png"))]
 pub(in crate::cli) fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     // `there` has refused it

@@ -1,4 +1,4 @@
-//! How robot descriptions and CAD assemblies are read.
+//! Options for reading robot descriptions and CAD assemblies.
 
 use crate::api;
 use crate::cli::option::named::Loops;
@@ -10,37 +10,36 @@ use clap::{Args as ClapArgs, ValueHint};
 use itertools::Itertools;
 use std::path::{Path, PathBuf};
 
-/// How a description is read: the same for every command that reads one.
+/// Options for reading a description, the same for every command.
 #[derive(Debug, ClapArgs)]
-#[command(next_help_heading = "How a description is read")]
+#[command(next_help_heading = "Reading a description")]
 pub(in crate::cli) struct Reading {
     #[command(flatten)]
     loops: Loops,
-    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several
-    /// freedoms. Loops that are open there are closed from there.
+    /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several freedoms. Loops
+    /// that are open in this pose are closed starting from it.
     #[arg(long, value_name = "JOINT=VALUE", allow_hyphen_values = true)]
     pose: Vec<String>,
-    /// Let a robot without a fixed link float: a joint of six freedoms to the world.
+    /// Let a robot without a fixed link float on a joint of six freedoms to the world.
     #[arg(long)]
     floating: bool,
-    /// A folder of models (repeatable): what `model://NAME` of an SDF include stands for, and where MJCF includes with `../` may
-    /// lead.
+    /// Folder of models (repeatable): SDF includes `model://NAME` from it, and MJCF includes with `../` may lead into it.
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     models: Vec<PathBuf>,
-    /// SDF drawn in parts: every joint puts the frame that is its parent onto its child. CAD assemblies: joints that are open in
-    /// the file are closed.
+    /// SDF drawn in parts: every joint moves its child onto the frame of its parent. CAD assemblies: joints that are open in the
+    /// file are closed.
     #[arg(long)]
     assemble: bool,
-    /// Take loops that are open in the given pose as they are.
+    /// Leave loops open that are open in the given pose.
     #[arg(long)]
     open: bool,
-    /// The assembly of a FreeCAD document; the one with most joints by default.
+    /// Assembly of a FreeCAD document [default: the one with most joints].
     #[arg(long, value_name = "NAME")]
     assembly: Option<String>,
-    /// The fixed link; the root by default.
+    /// Fixed link [default: the root].
     #[arg(long, value_name = "LINK")]
     frame: Option<String>,
-    /// A link whose motion is the working motion (repeatable); the ends of chains by default.
+    /// Link whose motion is the output motion (repeatable) [default: the ends of chains].
     #[arg(long, value_name = "LINK")]
     working_link: Vec<String>,
 }
@@ -93,7 +92,7 @@ impl Reading {
 fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
     let bad = || {
         format!(
-            "--pose {text}: write joint=value, in radians or metres, with commas between several"
+            "--pose {text}: write joint=value, in radians or metres, with commas between several values"
         )
     };
     let (joint, values) = text.rsplit_once('=').with_context(bad)?;

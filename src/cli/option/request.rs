@@ -1,4 +1,4 @@
-//! What is asked of a search, in arguments: the same for every command that searches.
+//! Search options, the same for every command that searches.
 
 use crate::api;
 use crate::cli::terminal::memory;
@@ -13,125 +13,126 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Check {
-    /// One prime, no second opinion.
+    /// One prime, no cross-check.
     None,
-    /// The whole search over two primes, which must agree.
+    /// The whole search modulo two primes, which must agree.
     Prime,
-    /// That, and each variant given, up to 1000, analysed again by singular values.
+    /// Two primes, and singular values for each listed variant, up to 1000.
     Full,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Drives {
-    /// Outputs and drives move together as they do now.
+    /// Outputs and drives keep moving together as in the original.
     Kept,
-    /// Only the outputs must keep their motion; a drive may let go.
+    /// Only the outputs must keep their motion; a drive may lose its effect.
     Free,
-    /// There are as many motions as drives, and the drives decide the outputs: no two drives work against each other.
+    /// W equals the number of drives, and the drives determine the outputs: no two drives work against each other.
     Independent,
 }
 
-/// All that the list of variants depends on, but for the state.
+/// All options that select variants, except the state.
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
-#[command(next_help_heading = "Which variants")]
+#[command(next_help_heading = "Selecting variants")]
 pub(in crate::cli) struct Which {
-    /// Redundant constraints allowed within the mechanism.
+    /// Maximum number of redundant constraints left within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     max_redundant: u32,
-    /// Redundant constraints that the state of --state may add; takes its joints (and their unloading places) into the
+    /// Maximum number of redundant constraints added by the state of --state; includes its joints and unloading joints in the
     /// search.
     #[arg(long, value_name = "N")]
     max_external: Option<u32>,
-    /// Harmful ones among them: those that load clamping faces with more than friction; takes the state into the search.
+    /// Maximum number of harmful ones among these (that load clamping faces with more than friction); includes the state in the
+    /// search.
     #[arg(long, value_name = "N")]
     max_harmful: Option<u32>,
-    /// Also give variants in which the clamped object can move against all its jaws.
+    /// Also list variants that do not hold the clamped part.
     #[arg(long)]
     allow_loose_object: bool,
-    /// Largest mobility W allowed.
+    /// Maximum mobility W.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_mobility: Option<i64>,
-    /// Most changes allowed.
+    /// Maximum number of changes.
     #[arg(long, value_name = "N")]
     max_changes: Option<u32>,
     #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', help = rank_help())]
     rank: Vec<String>,
-    /// Score only so many of the cheapest variants in a ranking, fewer where the best are proven before; without it 20,000, and
-    /// then all others that could be among the best.
+    /// Number of cheapest variants to score in a ranking [default: 20000, then all others that could still win]. It stops early
+    /// once the best are proven.
     #[arg(long, value_name = "K")]
     pool: Option<usize>,
-    /// Also give variants whose outputs move in other ways than now.
+    /// Also list variants that change the output motion.
     #[arg(long)]
     allow_output_change: bool,
-    /// What is asked of the drives.
+    /// Condition on the drives.
     #[arg(long, value_enum, value_name = "WHAT", default_value_t = Drives::Kept)]
     drives: Drives,
-    /// Another link that must not gain a motion, or an object that must be held (repeatable).
+    /// Link that must not gain a motion, or part that must be held (repeatable).
     #[arg(long, value_name = "LINK")]
     hold: Vec<String>,
-    /// Use these of the file's options everywhere, by name: revolute,spherical. Joint types that the file does not list are
-    /// offered in the joints' own frames; `any` offers every set of freedoms there.
+    /// Joint types to allow at every joint, for example revolute,spherical. Types that the file does not list use the joint's
+    /// frame; `any` allows every set of freedoms in this frame.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     options: Vec<String>,
-    /// Options allowed at a joint: 2-3=revolute,spherical (repeatable). The present joint always is.
+    /// Joint types to allow at one joint, for example 2-3=revolute,spherical (repeatable). Its original type is always allowed.
     #[arg(long, value_name = "JOINT=NAMES")]
     allow: Vec<String>,
-    /// Options forbidden at a joint: 2-3=spherical; all changes with 2-3 alone (repeatable).
+    /// Joint types to forbid at a joint, for example 2-3=spherical; 2-3 forbids all changes (repeatable).
     #[arg(long, value_name = "JOINT[=NAMES]")]
     forbid: Vec<String>,
-    /// Joints to offer in series, beside those of the file: spherical,planar=4-a,a-8, or spherical alone for all joints that
-    /// the searched state adds (repeatable).
+    /// Joint types to allow in series with joints, in addition to those of the file: spherical,planar=4-a,a-8, or only spherical
+    /// for all joints that the searched state adds (repeatable).
     #[arg(long, value_name = "NAMES[=JOINTS]")]
     unloading: Vec<String>,
-    /// Costs of joint types and changes, in place of the defaults and of [search.costs] in FILE: a TOML file such as
-    /// `ozols show costs` prints.
+    /// TOML file with costs of joint types and changes, as `ozols show costs` prints them. It replaces the defaults and
+    /// [search.costs] of FILE.
     #[arg(long, value_name = "COSTS", value_hint = clap::ValueHint::FilePath)]
     costs: Option<PathBuf>,
-    /// Only variants that are their own mirror image.
+    /// Only mirror-symmetric variants.
     #[arg(long)]
     symmetric: bool,
-    /// Of a variant and its mirror image, only one.
+    /// List only one of each pair of mirror images.
     #[arg(long, conflicts_with = "symmetric")]
     one_per_orbit: bool,
-    /// Of the variants that give the same freedoms to the same joints in series, only the first.
+    /// List only the first variant of each idea (same freedoms added to the same chain of joints).
     #[arg(long)]
     distinct: bool,
-    /// Count and list the variants that keep the motion in the drawn pose, without following them along the motion.
+    /// Count and list variants that keep the motion in the drawn pose, without checking the rest of the motion.
     #[arg(long)]
     pose_only: bool,
-    /// Search a file whose coordinates are rounded exactly as it is written, though something else is meant.
+    /// Use rounded coordinates exactly as written instead of the idealised geometry.
     #[arg(long)]
     as_written: bool,
-    /// Node budget of each diagram, about 1 KB of memory a node (twice that with a check).
+    /// Node budget of each diagram; a node takes about 1 KB of memory (twice that with a check).
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     nodes: usize,
-    /// Memory that a search may hold, in bytes or such as 500M or 2G; by default a quarter of the machine's. Where it does not
-    /// suffice, counts are lower bounds, as with --nodes.
+    /// Memory limit of the search, for example 500M or 2G [default: a quarter of the machine's memory]. If it is reached, counts
+    /// are lower bounds, as with --nodes.
     #[arg(long, value_name = "BYTES", value_parser = memory::bytes)]
     pub(in crate::cli) memory: Option<usize>,
 }
 
-/// Which variants, the state meant, and how they are checked.
+/// Options that select variants, the state, and the checks.
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Checked {
     #[command(flatten)]
     which: Which,
-    /// The state that takes part besides the free one, its joints among what is searched; the file's first where only
-    /// --max-external or --max-harmful is given.
+    /// State to include in the search, in addition to the free one [default with --max-external or --max-harmful: the first of
+    /// the file].
     #[arg(long, value_name = "STATE")]
     state: Option<String>,
-    /// Look at each variant given, up to 1000, in N further poses of the present motion, and mark those whose W, σ or
-    /// output motion is not right there.
+    /// Check each listed variant (up to 1000) in N further poses of the original motion, and mark those with a different W, σ or
+    /// output motion.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(in crate::cli) poses: usize,
-    /// How the search is checked.
+    /// Check of the search.
     #[arg(long, value_enum, default_value = "full")]
     check: Check,
 }
 
 impl Which {
-    /// The request, about a state where one is named.
+    /// Builds the request, about a state if one is named.
     pub(in crate::cli) fn request(&self, state: Option<&str>) -> anyhow::Result<Request> {
         let joint_options = |rule: &String| match rule.split_once('=') {
             Some((joint, names)) => JointOptions {
@@ -196,7 +197,7 @@ impl Which {
     }
 }
 
-/// A file of costs.
+/// Reads a file of costs.
 fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
     let name = path.display().to_string();
     let bytes = api::bytes(path, MAX_BYTES).map_err(|e| {
@@ -207,7 +208,7 @@ fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
 }
 
 impl Checked {
-    /// The request, with the seed of its samples and poses.
+    /// Builds the request, with the seed of its samples and poses.
     pub(in crate::cli) fn request(&self, seed: u64) -> anyhow::Result<Request> {
         Ok(Request {
             check: match self.check {
@@ -222,11 +223,11 @@ impl Checked {
     }
 }
 
-/// The help of `--rank`.
+/// Returns the help of `--rank`.
 fn rank_help() -> String {
     format!(
-        "Rank under the workload by these terms, in place of the file's [ranking] terms: {}=1,{}=0.5. Terms: {}; weight 1 where \
-         none stands",
+        "Rank under the workload by these terms instead of the file's [ranking] terms, for \
+        example {}=1,{}=0.5. Terms: {}; weight 1 if omitted",
         Term::PeakForce.name(),
         Term::Cost.name(),
         Term::ALL.map(Term::name).join(", ")

@@ -1,4 +1,4 @@
-//! The k-th variant of the list that a search gives.
+//! Selecting one variant of the list of a search.
 
 use crate::cli::terminal::progress::note;
 use crate::model::mechanism::Mechanism;
@@ -8,25 +8,25 @@ use crate::score::run::{Event, run};
 use anyhow::{Context, ensure};
 use clap::Args as ClapArgs;
 
-/// Which of a search's list is meant.
+/// Selects a variant of the list of a search.
 #[derive(Debug, ClapArgs)]
 #[group(id = "chosen", multiple = false)]
 pub(in crate::cli) struct Chosen {
-    /// Variant K of the list that `ozols search FILE` gives, with the same of the options below.
+    /// Variant K of the list that `ozols search FILE` prints with the same options below.
     #[arg(long, value_name = "K")]
     variant: Option<usize>,
-    /// The first variant of idea K, as short texts of `ozols search FILE` number them: --distinct --variant K.
+    /// First variant of idea K, as numbered in short texts of `ozols search FILE`; the same as --distinct --variant K.
     #[arg(long, value_name = "K")]
     idea: Option<usize>,
 }
 
 impl Chosen {
-    /// Its place in the list, where one is meant.
+    /// Returns its place in the list, if one is selected.
     pub(in crate::cli) fn place(&self) -> Option<usize> {
         self.variant.or(self.idea)
     }
 
-    /// The request whose list it is of.
+    /// Returns the request for its list.
     pub(in crate::cli) fn of(&self, request: Request) -> Request {
         Request {
             distinct: request.distinct || self.idea.is_some(),
@@ -35,8 +35,8 @@ impl Chosen {
     }
 }
 
-/// What `with` makes of variant `k` of the list that `ozols search` gives for the same request: the cheapest first, or in
-/// the order of the ranking that the file or the request asks for.
+/// Calls `with` on variant `k` of the list that `ozols search` prints for the same request: the cheapest first, or in the order
+/// of the ranking that the file or the request asks for.
 pub(in crate::cli) fn kth<T>(
     mechanism: Mechanism,
     request: Request,
@@ -53,7 +53,7 @@ pub(in crate::cli) fn tell(event: Event) {
     }
 }
 
-/// The same, with what is to be told in other hands.
+/// Does the same as [`kth`], with a given receiver of events.
 pub(in crate::cli) fn kth_telling<T>(
     mechanism: Mechanism,
     request: Request,

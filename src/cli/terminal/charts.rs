@@ -3,21 +3,21 @@
 use crate::chart::{Chart, page};
 use crate::cli::terminal::{Done, output};
 
-/// A drawing beside the charts.
+/// A drawing next to the charts.
 pub(in crate::cli) struct ChartDrawing {
-    /// Name of its files.
+    /// Name of its files, without ending.
     pub(in crate::cli) name: String,
-    /// What is shown.
+    /// Title of the drawing.
     pub(in crate::cli) title: String,
-    /// Its texts by ending; one of them svg.
+    /// Its texts by ending, including svg.
     pub(in crate::cli) files: Vec<(&'static str, String)>,
 }
 
 use anyhow::Context;
 use std::path::Path;
 
-/// Writes `NAME.svg` and `NAME.csv` of each chart, making the folder where it is missing, and a page of all where it gets a
-/// title; drawings come last.
+/// Writes `NAME.svg` and `NAME.csv` of each chart, and a page of all if a title is given. Creates the folder if it is missing.
+/// Drawings come last.
 pub(in crate::cli) fn write(
     folder: &Path,
     title: Option<&str>,

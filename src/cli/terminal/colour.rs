@@ -1,10 +1,10 @@
-//! Colour for the verdicts of a text, where a person looks: on a terminal that wants it (NO_COLOR, CLICOLOR_FORCE).
+//! Colour for the verdicts of a text on a terminal that supports it (NO_COLOR, CLICOLOR_FORCE).
 
 use anstream::{AutoStream, ColorChoice};
 use anstyle::AnsiColor;
 use std::path::Path;
 
-/// What a verdict is.
+/// The kind of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) enum Tone {
     Good,
@@ -12,8 +12,8 @@ pub(in crate::cli) enum Tone {
     Bad,
 }
 
-/// A text with each of the verdicts in its colour, the first of each behind the one before; as it is where it goes to a file or
-/// nobody looks.
+/// Returns a text with each of the verdicts in its colour; each verdict is searched for after the one before. Returns it
+/// unchanged if it goes to a file or nobody looks.
 pub(in crate::cli) fn toned(
     text: String,
     path: Option<&Path>,

@@ -1,19 +1,19 @@
-//! What Ctrl-C, SIGTERM and SIGHUP do: a search ends early with what it has, anything else ends at once. Either way the
-//! program says so, leaves no temporary file, and its exit code is 128 and the signal's number.
+//! Effect of Ctrl-C, SIGTERM and SIGHUP: a search ends early with its results so far, and any other work ends at once. In both
+//! cases the program reports it, leaves no temporary file, and its exit code is 128 plus the number of the signal.
 
 use crate::cli::terminal::output;
 use crate::cli::terminal::spinner;
 use anyhow::Context;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 
-/// SIGHUP, SIGINT and SIGTERM by their numbers, which are the same everywhere.
+/// The numbers of SIGHUP, SIGINT and SIGTERM, which are the same everywhere.
 const NAMES: [(u8, &str); 3] = [(1, "SIGHUP"), (2, "Ctrl-C"), (15, "SIGTERM")];
 
-/// The first signal that came; 0 while none has.
+/// The first signal received; 0 if none.
 static FIRST: AtomicU8 = AtomicU8::new(0);
-/// Whether a signal came that nothing has ended for yet.
+/// True if a signal was received for which nothing has ended yet.
 static PENDING: AtomicBool = AtomicBool::new(false);
-/// Whether somebody asks [`pending`] now and then, and has something to give.
+/// True if somebody calls [`pending`] regularly and can return early.
 static PATIENT: AtomicBool = AtomicBool::new(false);
 
 /// Listens from now on.
@@ -52,7 +52,7 @@ fn handle() -> std::io::Result<()> {
         .map(|_| ())
 }
 
-/// Whether a signal was ignored when the program began; unknown is no, off Linux.
+/// Returns true if a signal was ignored when the program began; false if unknown, and off Linux.
 #[cfg(unix)]
 fn is_ignored(signal: u8) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -73,7 +73,7 @@ fn heard(signal: u8) {
     let name = name.map_or("a signal", |(_, name)| name);
     if PATIENT.load(Ordering::SeqCst) && !PENDING.swap(true, Ordering::SeqCst) {
         output::note(&format!(
-            "interrupted by {name}: what was found so far is given; once more ends at once\n"
+            "interrupted by {name}; printing the results so far (once more ends at once)\n"
         ));
         return;
     }
@@ -87,27 +87,27 @@ fn code(signal: u8) -> u8 {
     128 + signal
 }
 
-/// From now on the first signal is left to whoever asks [`pending`].
+/// Leaves the first signal to the callers of [`pending`] from now on.
 pub(in crate::cli) fn be_patient() {
     PATIENT.store(true, Ordering::SeqCst);
 }
 
-/// From now on every signal ends the program at once, as before [`be_patient`].
+/// Makes every signal end the program at once from now on, as before [`be_patient`].
 pub(in crate::cli) fn be_impatient() {
     PATIENT.store(false, Ordering::SeqCst);
 }
 
-/// Whether to end early.
+/// Returns true if the work should end early.
 pub(in crate::cli) fn pending() -> bool {
     PENDING.load(Ordering::Relaxed)
 }
 
-/// What the signal was meant for has ended: the next one is meant for what follows.
+/// Marks the signal as handled, because the work it was meant for has ended. The next signal is for the work that follows.
 pub(in crate::cli) fn answered() {
     PENDING.store(false, Ordering::SeqCst);
 }
 
-/// The exit code of a run that was interrupted.
+/// Returns the exit code of a run that was interrupted.
 pub(in crate::cli) fn exit_code() -> Option<u8> {
     match FIRST.load(Ordering::SeqCst) {
         0 => None,

@@ -1,36 +1,36 @@
-//! What times are taken by and measured on.
+//! The machine that measurements run on, and its clocks.
 
 use crate::accuracy::timing::Machine;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-/// The time since the first call.
+/// Returns the time since the first call.
 pub(in crate::cli) fn clock() -> Duration {
     static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
     BEGUN.elapsed()
 }
 
-/// What the threads of this process have taken of processors so far, which does not tell how busy the machine is.
+/// Returns the processor time that the threads of this process have used so far, which is independent of the load of the machine.
 #[cfg(unix)]
 pub(in crate::cli) fn processor_time() -> Duration {
     let told = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
     Duration::try_from(told).unwrap_or_default()
 }
 
-/// The time on the clock, where no other is had.
+/// Returns the time on the clock, if no other is available.
 #[cfg(not(unix))]
 pub(in crate::cli) fn processor_time() -> Duration {
     clock()
 }
 
-/// The value of a line such as `model name : AMD EPYC` of a file of the system.
+/// Returns the value of a line such as `model name : AMD EPYC` of a file of the system.
 fn value(file: &str, key: &str) -> Option<String> {
     let text = std::fs::read_to_string(file).ok()?;
     let line = text.lines().find(|l| l.starts_with(key))?;
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 
-/// Bytes of memory.
+/// Returns the memory of the machine, in bytes.
 #[cfg(target_os = "linux")]
 pub(in crate::cli) fn memory() -> Option<u64> {
     let told = rustix::system::sysinfo();
@@ -42,7 +42,7 @@ pub(in crate::cli) fn memory() -> Option<u64> {
     total.checked_mul(unit)
 }
 
-/// Bytes of memory.
+/// Returns the memory of the machine, in bytes.
 #[cfg(not(target_os = "linux"))]
 pub(in crate::cli) fn memory() -> Option<u64> {
     let mut told = sysinfo::System::new();
@@ -50,23 +50,23 @@ pub(in crate::cli) fn memory() -> Option<u64> {
     Some(told.total_memory()).filter(|bytes| *bytes > 0)
 }
 
-/// Bytes of addresses that this process has taken.
+/// Returns the size of the address space of this process, in bytes.
 pub(in crate::cli) fn addresses() -> Option<u64> {
     bytes("/proc/self/status", "VmSize")
 }
 
-/// The most bytes that this process has held so far.
+/// Returns the peak memory of this process, in bytes.
 pub(in crate::cli) fn peak() -> Option<u64> {
     bytes("/proc/self/status", "VmHWM")
 }
 
-/// A number of kilobytes of a file of the system.
+/// Returns a number of kilobytes of a file of the system, in bytes.
 fn bytes(file: &str, key: &str) -> Option<u64> {
     let kilobytes = value(file, key)?;
     Some(1024 * kilobytes.split(' ').next()?.parse::<u64>().ok()?)
 }
 
-/// This machine, as far as its system tells.
+/// Returns this machine, as far as its system describes it.
 pub(in crate::cli) fn machine() -> Machine {
     let architecture = std::env::consts::ARCH;
     let named = ["model name", "Hardware", "cpu model"];

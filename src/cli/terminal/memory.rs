@@ -1,12 +1,12 @@
-//! How much memory there is, and sizes of memory as words.
+//! Available memory, and sizes of memory as words.
 
 mod group;
 
 use crate::cli::terminal::machine;
 use crate::score::request::Request;
 
-/// A quarter of the memory that the machine has, or that this process may have of it; what the library takes by default where
-/// that is not told. Of addresses that are scarce no more than half of those that are left.
+/// Returns a quarter of the memory that the machine has, or that this process may have of it; the library's default if that is
+/// unknown. If addresses are scarce, returns at most half of those that are left.
 pub(in crate::cli) fn quarter() -> usize {
     let most = least().map_or(Request::default().memory as u64, |all| all / 4);
     let taken = machine::addresses().unwrap_or(0);
@@ -14,9 +14,12 @@ pub(in crate::cli) fn quarter() -> usize {
     usize::try_from(left.map_or(most, |left| left.min(most))).unwrap_or(usize::MAX)
 }
 
-/// "48 MiB", "3.9 GiB".
+/// Returns a size in words, such as "48 MiB" or "3.9 GiB".
 pub(in crate::cli) fn words(bytes: u64) -> String {
-    #[allow(clippy::cast_precision_loss, reason = "told with two digits or three")]
+    #[allow(
+        clippy::cast_precision_loss,
+        reason = "printed with two digits or three"
+    )]
     let mib = bytes as f64 / f64::from(1 << 20);
     match mib {
         m if m < 1000.0 => format!("{m:.0} MiB"),
@@ -24,7 +27,7 @@ pub(in crate::cli) fn words(bytes: u64) -> String {
     }
 }
 
-/// Bytes: a number, or one with k, M, G or T behind it (powers of 1024), and B or iB behind that.
+/// Parses a size in bytes: a number, optionally followed by k, M, G or T (powers of 1024), and B or iB.
 pub(in crate::cli) fn bytes(word: &str) -> Result<usize, String> {
     let plain = word.trim_end_matches(['b', 'B']).trim_end_matches('i');
     let units = ["kK", "mM", "gG", "tT"];
@@ -44,16 +47,16 @@ pub(in crate::cli) fn bytes(word: &str) -> Result<usize, String> {
         reason = "it is within the range"
     )]
     let size = size.filter(|s| (1e6..1e15).contains(s)).map(|s| s as usize);
-    size.ok_or_else(|| "give a size of 1M or more, such as 500M or 2G".to_owned())
+    size.ok_or_else(|| "give a size of at least 1M, such as 500M or 2G".to_owned())
 }
 
-/// The least of all that bounds this process, in bytes; none where nothing is told.
+/// Returns the smallest limit on the memory of this process, in bytes, or `None` if none is known.
 fn least() -> Option<u64> {
     let known = [machine::memory(), group::limit(), ulimit()];
     known.into_iter().flatten().min()
 }
 
-/// Most bytes of addresses, or of data, that the process may have: `ulimit -v` and `ulimit -d`.
+/// Returns the limit on addresses or data of the process, in bytes: `ulimit -v` and `ulimit -d`.
 #[cfg(unix)]
 fn ulimit() -> Option<u64> {
     use rustix::process::{Resource, getrlimit};
@@ -66,13 +69,13 @@ fn ulimit() -> Option<u64> {
     None
 }
 
-/// Starts the program anew where addresses are scarce, with one pool of memory for all threads: glibc sets 64 MiB of addresses aside
-/// for each thread's own, so that a few threads would use up what there is without holding any of it.
+/// Restarts the program if addresses are scarce, with one pool of memory for all threads. glibc reserves 64 MiB of addresses for
+/// each thread's pool, so a few threads would use up the addresses without using the memory.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub(in crate::cli) fn share_pools(words: &[std::ffi::OsString]) {
     use std::os::unix::process::CommandExt;
     const POOLS: &str = "MALLOC_ARENA_MAX";
-    /// With more than this, what is set aside does not matter.
+    /// With more bytes than this, the reserved addresses do not matter.
     const PLENTY: u64 = 16 << 30;
     if ulimit().is_none_or(|l| l > PLENTY) || std::env::var_os(POOLS).is_some() {
         return;

@@ -1,4 +1,4 @@
-//! Data to standard output or, whole or not at all, to a file; complaints to standard error.
+//! Results go to standard output or to a file, which is written completely or not at all. Errors go to standard error.
 
 mod beside;
 pub(in crate::cli) mod kept;
@@ -14,7 +14,7 @@ use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The file to write to, if it is not standard output.
+/// Returns the file to write to, if it is not standard output.
 fn file(path: Option<&Path>) -> Option<&Path> {
     path.filter(|p| *p != Path::new("-"))
 }
@@ -46,11 +46,11 @@ pub(in crate::cli) fn to(
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
     if path.is_dir() {
-        anyhow::bail!("{}: it is a folder; name a file in it", whole());
+        anyhow::bail!("{}: this is a folder; name a file in it", whole());
     }
     if !folder.is_dir() {
         anyhow::bail!(
-            "{}: there is no folder {}; make it first",
+            "{}: no folder {}; create it first",
             whole(),
             folder.display()
         );
@@ -67,7 +67,7 @@ pub(in crate::cli) fn to(
     kept::note_written(path);
     if let Some(other) = other {
         say(&format!(
-            "{} stays as it was; what was found before the interruption is in {}\n",
+            "{} was not changed; partial results are in {}\n",
             path.display(),
             other.display()
         ));
@@ -89,7 +89,7 @@ pub(in crate::cli) fn files(
     Ok(())
 }
 
-/// A value as JSON for people to read and programs to parse.
+/// Writes a value as JSON for people to read and programs to parse.
 pub(in crate::cli) fn json(
     out: &mut dyn Write,
     value: &impl serde::Serialize,
@@ -97,10 +97,10 @@ pub(in crate::cli) fn json(
     Ok(writeln!(out, "{}", view::pretty(value)?)?)
 }
 
-/// No text is fitted to less.
+/// Minimum width of a text, in columns.
 const NARROWEST: u16 = 40;
 
-/// Width that standard output is fitted to: what `OZOLS_WIDTH` says, else that of its terminal.
+/// Returns the width of standard output: `OZOLS_WIDTH` if set, otherwise the width of its terminal.
 pub(in crate::cli) fn width(path: Option<&Path>) -> Option<u16> {
     match file(path) {
         None => fitted(&console::Term::stdout()),
@@ -108,7 +108,7 @@ pub(in crate::cli) fn width(path: Option<&Path>) -> Option<u16> {
     }
 }
 
-/// The same of standard error.
+/// Returns the same for standard error.
 pub(in crate::cli) fn error_width() -> Option<u16> {
     fitted(&console::Term::stderr())
 }
@@ -122,7 +122,7 @@ fn fitted(to: &console::Term) -> Option<u16> {
     found.map(|w: u16| w.max(NARROWEST))
 }
 
-/// Whether the reader of our output has gone away.
+/// Returns true if the reader of our output has gone away.
 pub(in crate::cli) fn is_broken_pipe(e: &anyhow::Error) -> bool {
     e.chain().any(|c| {
         c.downcast_ref::<std::io::Error>()
@@ -130,7 +130,7 @@ pub(in crate::cli) fn is_broken_pipe(e: &anyhow::Error) -> bool {
     })
 }
 
-/// Whether nothing but errors is said on standard error.
+/// True if only errors are printed on standard error.
 static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Leaves out all notes from now on.
@@ -138,7 +138,7 @@ pub(in crate::cli) fn hush() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Says something on standard error; a closed one is no failure.
+/// Prints a note on standard error; a closed one is not an error.
 pub(in crate::cli) fn note(text: &str) {
     if !QUIET.load(Ordering::Relaxed) {
         say(text);
@@ -151,8 +151,8 @@ pub(in crate::cli) fn say(text: &str) {
     let _ = write!(std::io::stderr().lock(), "{}", plain(text));
 }
 
-/// Says what went wrong, in colour where standard error is a terminal that wants it (NO_COLOR, CLICOLOR_FORCE), as the
-/// parser of the arguments does.
+/// Prints an error, in colour if standard error is a terminal that supports it (NO_COLOR, CLICOLOR_FORCE), like the parser of the
+/// arguments.
 pub(in crate::cli) fn complain(e: &anyhow::Error) {
     let text = match problems(e) {
         Some(import) => import.render(true),
@@ -164,7 +164,7 @@ pub(in crate::cli) fn complain(e: &anyhow::Error) {
     coloured_note(&text);
 }
 
-/// What is wrong with a file, where that is what went wrong, or why a search did.
+/// Returns the problems of a file, if these are the cause of an error.
 pub(in crate::cli) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
     e.chain()
         .find_map(|c| match c.downcast_ref::<api::Error>() {
@@ -173,12 +173,12 @@ pub(in crate::cli) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
         })
 }
 
-/// Says something on standard error, its colours left out where they are not wanted.
+/// Prints a note on standard error, without its colours if they are not supported.
 pub(in crate::cli) fn coloured_note(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
 }
 
-/// Runs `write` on something with a name, and returns how that ended once all is there.
+/// Runs `write` on a named output, and returns its result after everything is written.
 fn fill(
     name: &str,
     out: impl Write,
@@ -190,7 +190,7 @@ fn fill(
     Ok(done)
 }
 
-/// A writer to something with a name, whose errors say what could not be written and what to do about it.
+/// A writer with a name, whose errors report what could not be written and what to do about it.
 struct Named<'n, W> {
     name: &'n str,
     out: W,
@@ -201,7 +201,7 @@ impl<W> Named<'_, W> {
     fn named(&self, why: io::Error) -> io::Error {
         let remedy = match why.kind() {
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-                "; make room there, or write elsewhere"
+                "; free some space, or write elsewhere"
             }
             ErrorKind::FileTooLarge => "; raise the limit on the size of files (ulimit -f)",
             _ => "",
@@ -221,10 +221,10 @@ impl<W: Write> Write for Named<'_, W> {
     }
 }
 
-/// Standard output, held. Nothing is drawn over what is written, and where a person looks, no text of a file steers the terminal.
+/// Standard output, locked. Nothing is drawn over the output, and on a terminal no text of a file can control it.
 struct Standard {
     out: StdoutLock<'static>,
-    /// The beginning of a line whose rest is to come, where there is a terminal.
+    /// The beginning of a line that is not complete yet, on a terminal.
     line: Option<Vec<u8>>,
 }
 

@@ -1,4 +1,4 @@
-//! What is shown of a run that takes longer than a second, on a terminal only.
+//! Progress of a run that takes longer than a second, on a terminal only.
 
 use crate::cli::terminal::interrupt;
 use crate::cli::terminal::output;
@@ -20,7 +20,7 @@ pub(in crate::cli) fn note(text: String) {
     output::note(&format!("{text}\n"));
 }
 
-/// Watches a search: shows how far it has come, and ends it early at a signal.
+/// Watches a search: shows its progress, and ends it early at a signal.
 pub(in crate::cli) struct SearchWatch {
     bar: Bar,
     quiet: bool,
@@ -85,7 +85,7 @@ impl SearchWatch {
     }
 }
 
-/// Shows how far a run has come.
+/// A bar that shows the progress of a run.
 pub(in crate::cli) struct Bar {
     bar: Option<ProgressBar>,
     begun: Instant,

@@ -5,10 +5,10 @@ use std::io::IsTerminal;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// What is shown of work of unknown length: how often it began or ended, and the bar.
+/// The state of the spinner: how often work began or ended, and the bar.
 static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
 
-/// From a second on, says on a terminal that work goes on, until [`rest`].
+/// Shows on a terminal that work continues, after a second and until [`rest`].
 pub(in crate::cli) fn show(quiet: bool) {
     if quiet || !std::io::stderr().is_terminal() {
         return;

@@ -1,8 +1,8 @@
-//! Which of the known words a mistyped one may have meant.
+//! Suggestions for a mistyped word.
 
-/// Most words suggested.
+/// Maximum number of words suggested.
 const MOST: usize = 5;
-/// How alike two words must be, from 0 to 1.
+/// Minimum similarity of two words, from 0 to 1.
 const ALIKE: f64 = 0.75;
 
 /// Returns the known words nearest to `word`, best first: those of similar spelling, then those that contain it or are contained in it.

@@ -338,7 +338,7 @@ fn the_command_counts_and_lists() {
     for (bad, said) in [
         (
             &["catalog", "count", "--links", "9..6"][..],
-            "lesser number",
+            "smaller number",
         ),
         (&["catalog", "count", "--links", "many"], "4..10"),
         (

@@ -167,10 +167,7 @@ fn what_cannot_be_done_is_said() {
         ("show DB 4-", "the beginning of 2 structures"),
         ("merge DB -o DB", "one of the parts and the whole"),
         ("count --links 4..x", "\"x\" is not a number of links"),
-        (
-            "count --links 8..4",
-            "from the lesser number to the greater",
-        ),
+        ("count --links 8..4", "give the smaller number first"),
     ] {
         let words = line
             .split(' ')

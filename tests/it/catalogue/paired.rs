@@ -386,7 +386,7 @@ fn what_is_not_laid_out_is_refused() {
     );
     build("--pairs gear --symmetry generic", "mirror or half-turn");
     build("--pairs gear --at-most 0", "at_most must be from 1 to 12");
-    build("--links 4 --at-most 1", "named by --pairs");
+    build("--links 4 --at-most 1", "name them with --pairs");
     build("--classics --links 4", "cannot be used with");
 }
 

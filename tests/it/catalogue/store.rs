@@ -78,7 +78,7 @@ fn parts_that_are_missing_are_named() {
     let (code, said) = merge(&[1, 2, 3, 4, 5, 6, 7]);
     assert_eq!(code, Some(1));
     assert!(
-        said.contains("3.db does not say") && said.contains("3/7 is missing"),
+        said.contains("3.db is not marked as complete") && said.contains("3/7 is missing"),
         "{said}"
     );
 }

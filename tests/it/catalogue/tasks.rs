@@ -224,7 +224,7 @@ fn an_empty_answer_says_what_is_in_the_way() {
         "--price",
         "0",
     ]);
-    assert!(text(&o.stderr).contains("two of them or more"), "{o:?}");
+    assert!(text(&o.stderr).contains("two or more of them"), "{o:?}");
 }
 
 /// A file and options ask for the same, and another task is another catalogue.

@@ -175,16 +175,11 @@ fn outputs_that_have_no_place_are_refused_by_their_names() {
         refused(&[command, place], &["is a folder; name a file in it"]);
     }
     for command in ["analyze", "search"] {
-        let whole = ["it is a folder; name a file in it"];
+        let whole = ["this is a folder; name a file in it"];
         let said = refused(&[command, "four-bar", "-o", place], &whole);
         assert!(!said.contains(".tmp/"), "{said}");
         let nowhere = format!("{place}/none/x.txt");
-        let parts = [
-            "cannot write",
-            "none/x.txt",
-            "there is no folder",
-            "make it first",
-        ];
+        let parts = ["cannot write", "none/x.txt", "no folder", "create it first"];
         let said = refused(&[command, "four-bar", "-o", &nowhere], &parts);
         assert!(!said.contains("os error"), "{said}");
     }

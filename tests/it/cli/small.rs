@@ -206,7 +206,7 @@ fn couplings_out_of_the_plane_are_left_out_and_said() {
         let o = run(&args);
         let said = text(&o.stderr);
         assert_eq!(o.status.code(), Some(0), "{args:?} {said}");
-        has(&said, "--planar leaves out what couples");
+        has(&said, "--planar omits the couplings");
         has(&said, "0-1");
     }
 }

@@ -60,7 +60,7 @@ fn a_new_file_never_takes_the_place_of_another_unasked() {
     fs::write(&path, "mine").unwrap();
     let (code, stdout, err) = ran(&["new", file]);
     assert_eq!((code, stdout.as_str()), (Some(2), ""));
-    has(&err, "is there already");
+    has(&err, "already exists");
     has(&err, "--force");
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert_eq!(out(&["new", file, "--force", "--quiet"]), "");

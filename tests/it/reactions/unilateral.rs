@@ -280,7 +280,7 @@ fn words_that_are_no_states_or_contacts_are_refused() {
     }
     let (code, _, errors) = statics(&out(&["show", "four-bar"]), &["--unilateral"]);
     assert_eq!(code, Some(2));
-    has(&errors, "--unilateral is for contacts with an object");
+    has(&errors, "--unilateral is for contacts with a clamped part");
 }
 
 /// What a file says of states and contacts, its export says again.

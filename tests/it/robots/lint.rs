@@ -96,7 +96,7 @@ fn lint_does_not_decide_what_digits_leave_open() {
     assert!(!out.contains("ozols fix"), "{out}");
     let (code, _, told) = run_on("fix", "m.xml", &text, &[]);
     assert_eq!(code, Some(2));
-    has(&told, "not decided");
+    has(&told, "undecided");
     has(&told, "--pose");
 }
 

@@ -175,7 +175,7 @@ fn what_cannot_be_opened_is_told() {
     fs::create_dir(folder.path().join("sub")).unwrap();
     for [file, words] in cases::<2>(
         r"
-        - | standard input is no file
+        - | standard input cannot be saved
         grippper-10 | did you mean
         sub | is a folder
         nowhere/mine.toml | neither a file nor a built-in mechanism

@@ -18,68 +18,68 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Build {
-    /// Numbers of links, the last included; chains of mobility 1 have an even number, with gears and slots any.
+    /// Numbers of links, such as 4..8 (the last included); chains of mobility 1 have an even number, with gears and slots any.
     #[arg(long, value_name = "N..M")]
     links: Option<String>,
-    /// Jaws: 2 or 3, these at 120°; 2 by default.
+    /// Number of jaws: 2, or 3 at 120° [default: 2].
     #[arg(long, value_name = "N")]
     jaws: Option<usize>,
-    /// How the driver moves: slide, turn; both by default.
+    /// Motion of the driver: slide, turn [default: both].
     #[arg(long, value_name = "INPUT", value_delimiter = ',')]
     input: Vec<String>,
-    /// How structures are laid out: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a plane
-    /// with a turning input, round an axis with a slide); all by default.
+    /// Symmetries of the layouts: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a
+    /// plane with a turning input, about an axis with a slide) [default: all].
     #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
     symmetry: Vec<String>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
     #[arg(long, value_name = "WORD")]
     parallel: Option<String>,
-    /// Layouts with hinges on one pin with their mirror images, as tongs have them: with, without (the default) or only.
+    /// Layouts in which a hinge and its mirror image share one pin, as in tongs: with, without or only [default: without].
     #[arg(long, value_name = "WORD")]
     one_pin: Option<String>,
-    /// Pairs beside hinges in symmetric structures of two jaws, threefold ones of three, or with --generic-pairs any: slide, gear (or
-    /// rack), slot (pin in a slot, cam, wedge), two-slots (two pins in two slots between the same links); the driver alone may slide
-    /// otherwise.
+    /// Pairs in addition to hinges: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins in two slots
+    /// between the same links). They are used in symmetric structures of two jaws, threefold ones of three, or any with
+    /// --generic-pairs; only the driver may slide otherwise.
     #[arg(long, value_name = "KINDS", value_delimiter = ',')]
     pairs: Vec<String>,
-    /// Pairs that are not hinges at most, a left and a right one being one; 3 by default.
+    /// Maximum number of pairs that are not hinges; a left and a right one count once [default: 3].
     #[arg(long, value_name = "K")]
     at_most: Option<usize>,
-    /// With pairs, structures of two jaws or three laid out freely, too, symmetric or not: there are many.
+    /// With pairs, also include structures of two or three jaws that are laid out freely, symmetric or not; there are many.
     #[arg(long, requires = "pairs")]
     generic_pairs: bool,
-    /// Slots between links that do not turn against each other made as flat faces, which are redundant in the plane already: with,
-    /// without (the default) or only.
+    /// Slots between links that do not rotate relative to each other as flat faces, which are redundant already in the plane:
+    /// with, without or only [default: without].
     #[arg(long, value_name = "WORD")]
     flat_faces: Option<String>,
-    /// The well-known schemes alone, whatever their number of links, each as symmetric as it can be.
+    /// Only the well-known schemes, with any number of links, each as symmetric as it can be.
     #[arg(long, conflicts_with_all = ["links", "pairs", "at_most", "one_pin", "flat_faces", "generic_pairs"])]
     classics: bool,
-    /// What may be put in place of a hinge.
+    /// Joint types that may replace a hinge.
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
     options: Vec<String>,
-    /// What may be put in series with a hinge, on a link of its own; nothing by default.
+    /// Joint types that may be put in series with a hinge, on an extra link [default: none].
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
     unloading: Vec<String>,
-    /// Ideas kept of each structure; 10 by default.
+    /// Number of ideas kept per structure [default: 10].
     #[arg(long, value_name = "K")]
     ideas: Option<usize>,
-    /// The longest link over the shortest at most; 8 by default.
+    /// Maximum ratio of the longest link to the shortest [default: 8].
     #[arg(long, value_name = "X")]
     ratio: Option<f64>,
-    /// The least transmission angle of a rod, in degrees; 15 by default.
+    /// Minimum transmission angle of a rod, in degrees [default: 15].
     #[arg(long, value_name = "DEGREES")]
     transmission: Option<f64>,
-    /// Crossings of links at most, where no planes are known in which they pass each other; 6 by default.
+    /// Maximum number of crossings of links for which no planes are known in which they pass each other [default: 6].
     #[arg(long, value_name = "N")]
     crossings: Option<usize>,
-    /// A file that says all this, in TOML; what is given beside it counts more.
+    /// File with all these settings, in TOML; options on the command line take precedence.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     spec: Option<PathBuf>,
-    /// Make part I of N alone, from 1; `ozols catalog merge` puts the parts together.
+    /// Build only part I of N, counted from 1; `ozols catalog merge` merges the parts.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// The database; where there is one of the same catalogue, what it has not is added.
+    /// Database to write; an existing one of the same catalogue is completed.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
     // Last: what follows would stand under its heading in the help.
@@ -88,11 +88,11 @@ pub(in crate::cli) struct Build {
 }
 
 impl Build {
-    /// How many pairs that are not hinges there may be of those that are asked for.
+    /// Returns the maximum number of pairs that are not hinges, among those asked for.
     fn most_of(&self, spec: &Spec) -> anyhow::Result<usize> {
         ensure!(
             self.at_most.is_none() || !spec.pairs.is_empty(),
-            "--at-most: pairs that are not hinges are named by --pairs, such as --pairs slide,gear,slot"
+            "--at-most limits pairs that are not hinges; name them with --pairs, such as --pairs slide,gear,slot"
         );
         Ok(self.at_most.unwrap_or(spec.at_most))
     }
@@ -178,9 +178,10 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let all = work.count();
     ensure!(
         all > 0 || part != Shard::WHOLE,
-        "no structure is as asked with {} links: hinges on one pin are of mirror images with a slide, flat faces of slots between links \
-         that slides join, three sides of links that frame and driver alone join, three jaws of four links at least; without gears and \
-         slots links are even in number",
+        "no structure with {} links meets the conditions: hinges on one pin need mirror images \
+        with a slide, flat faces need slots between links that slides join, three sides need \
+        links that join only frame and driver, and three jaws need at least four links; without \
+        gears and slots the number of links is even",
         spec.links
     );
     let mut store = Store::create(&a.output, &spec)?;
@@ -211,7 +212,7 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     built(&store, &a.output, count, "structures")
 }
 
-/// Says what a catalogue holds now that so many of something were added, and that it was interrupted where it was.
+/// Reports how much a catalogue holds after `added` entries were added, and whether it was interrupted.
 pub(super) fn built(store: &Store, path: &Path, added: usize, what: &str) -> anyhow::Result<Done> {
     output::to(None, |out| {
         let text = built_text(store, path, added, what, output::width(None))?;
@@ -220,7 +221,7 @@ pub(super) fn built(store: &Store, path: &Path, added: usize, what: &str) -> any
             let path = path.display();
             writeln!(
                 out,
-                "\nInterrupted: the same command carries on with {path}."
+                "\nInterrupted: the same command continues with {path}."
             )?;
         }
         Ok(Done::Found)

@@ -1,4 +1,4 @@
-//! `ozols catalog count` and `chains`: of hinges alone, and of other pairs.
+//! `ozols catalog count` and `chains`, for hinges only and for other pairs.
 
 use crate::catalog::spec::range;
 use crate::chains::PairKind;
@@ -24,14 +24,14 @@ use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 struct PairArgs {
-    /// Chains with other pairs than hinges, too: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins
+    /// Include chains with other pairs than hinges: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins
     /// in two slots between the same links).
     #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
     pairs: Vec<PairKind>,
-    /// Pairs that are not hinges at most; with --up-to-symmetry a left and a right one count once.
+    /// Maximum number of pairs that are not hinges; with --up-to-symmetry a left and a right one count once.
     #[arg(long, value_name = "K", default_value_t = 3, requires = "pairs")]
     at_most: usize,
-    /// Symmetric grippers alone, by how many pairs they have that are not hinges.
+    /// Only symmetric grippers, counted by their pairs that are not hinges.
     #[arg(long, requires = "pairs", conflicts_with = "chains")]
     up_to_symmetry: bool,
 }
@@ -41,20 +41,20 @@ fn kind(word: &str) -> Result<PairKind, String> {
     let found = others.clone().find(|k| k.1 == word).map(|k| k.0);
     found.ok_or_else(|| {
         let known = others.map(|k| k.1).join(", ");
-        format!("{word:?} is none of {known}; hinges are always there")
+        format!("{word:?} is none of {known}; hinges are always included")
     })
 }
 
-/// Beyond so many links there are too many chains to be counted one by one.
+/// Largest number of links for which chains are counted one by one.
 const MOST_LINKS: usize = 10;
 
 impl PairArgs {
-    /// Whether pairs are asked for.
+    /// Returns true if pairs are asked for.
     fn are_given(&self) -> bool {
         !self.pairs.is_empty()
     }
 
-    /// Counts chains alone, or their grippers, too.
+    /// Counts chains, or also their grippers.
     fn count(
         &self,
         links: &RangeInclusive<usize>,
@@ -64,11 +64,11 @@ impl PairArgs {
     ) -> anyhow::Result<Done> {
         ensure!(
             listing.mobility == 1,
-            "--pairs counts chains of one motion: leave --mobility out"
+            "--pairs counts chains of one motion; omit --mobility"
         );
         ensure!(
             *links.end() <= MOST_LINKS,
-            "chains of pairs are counted up to {MOST_LINKS} links: there are too many beyond"
+            "chains of pairs are counted up to {MOST_LINKS} links; beyond that there are too many"
         );
         let numbers = links.clone().enumerate();
         let steps = links.clone().count();
@@ -99,7 +99,7 @@ impl PairArgs {
 
 #[derive(Debug, ClapArgs)]
 struct Listing {
-    /// Mobility of the chains, all of whose joints have one freedom.
+    /// Mobility of the chains; all joints have one freedom.
     #[arg(long, value_name = "W", default_value_t = 1)]
     mobility: usize,
     /// Output format.
@@ -131,10 +131,10 @@ impl Listing {
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Count {
-    /// Numbers of links: one, or a range such as 4..10, its end included.
+    /// Number of links, or a range such as 4..10, its end included.
     #[arg(long, value_name = "N..M", default_value = "4..8", value_parser = links)]
     links: RangeInclusive<usize>,
-    /// Chains alone, not what their links can be: with 16 links and more that saves most of the time.
+    /// Only the chains, not the possible roles of their links; with 16 links and more that saves most of the time.
     #[arg(long)]
     chains: bool,
     #[command(flatten)]
@@ -152,17 +152,17 @@ pub(in crate::cli) struct Chains {
     listing: Listing,
 }
 
-/// Beyond so many links grippers are not counted: there are tens of millions.
+/// Largest number of links for which grippers are counted; beyond it there are tens of millions.
 const MOST_OF_GRIPPERS: usize = 12;
-/// Beyond so many, chains are not listed: the list would not fit memory.
+/// Largest number of links for which chains are listed; beyond it the list would not fit into memory.
 const MOST_LISTED: usize = 14;
 
 fn links(text: &str) -> Result<RangeInclusive<usize>, String> {
     let all = range(text)
-        .map_err(|part| format!("{part:?} is not a number of links: write 8 or 4..10"))?;
+        .map_err(|part| format!("{part:?} is not a number of links; write 8 or 4..10"))?;
     if all.is_empty() || *all.start() < 3 || *all.end() > 18 {
         return Err(
-            "chains of 4 to 18 links are counted, with --pairs of 3 to 10, from the lesser number to the greater"
+            "chains of 4 to 18 links are counted, with --pairs of 3 to 10; give the smaller number first"
                 .to_owned(),
         );
     }
@@ -178,7 +178,7 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
     }
     ensure!(
         *a.links.start() > 3,
-        "chains of hinges have 4 links at least: three links need --pairs"
+        "chains of hinges have at least 4 links; three links need --pairs"
     );
     let mut all = Vec::new();
     for (i, n) in a.links.clone().enumerate() {
@@ -208,7 +208,7 @@ pub(super) fn count(args: &Global, a: &Count) -> anyhow::Result<Done> {
 pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
     ensure!(
         a.links <= MOST_LISTED,
-        "chains of up to {MOST_LISTED} links are listed; `ozols catalog count --links {}` counts those",
+        "chains of up to {MOST_LISTED} links are listed; use `ozols catalog count --links {}` to count these",
         a.links
     );
     let found = chains(a.links, a.listing.mobility)?;

@@ -21,13 +21,13 @@ pub(in crate::cli) struct SearchDrawn {
     files: Vec<Named>,
     #[command(flatten)]
     loops: Loops,
-    /// All built-in grippers, too.
+    /// Include all built-in grippers.
     #[arg(long)]
     grippers: bool,
-    /// Ideas kept of each.
+    /// Number of ideas kept per mechanism.
     #[arg(long, value_name = "K", default_value_t = Spec::default().ideas)]
     ideas: usize,
-    /// The database; where it is there already, it is added to.
+    /// Database to write; an existing one is extended.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
 }
@@ -39,7 +39,7 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
     }
     ensure!(
         !files.is_empty(),
-        "nothing to search: name a FILE, or all built-in grippers by --grippers"
+        "nothing to search; name a FILE, or use --grippers for all built-in grippers"
     );
     // Wrong files are told before any is searched, and the others are searched.
     let (mechanisms, mut well) = load::each(&files, &a.loops);
@@ -73,7 +73,7 @@ pub(super) fn search(args: &Global, a: &SearchDrawn) -> anyhow::Result<Done> {
     Ok(if well { done } else { Done::Partly })
 }
 
-/// What a search of a mechanism finds; nothing where it is kept already.
+/// Searches a mechanism. Returns `None` if the catalogue has it already.
 fn searched(store: &Store, m: Mechanism, ideas: usize) -> anyhow::Result<Option<DrawnMechanism>> {
     if store.has_drawn(&id(&m)?, ideas)? {
         return Ok(None);

@@ -20,7 +20,7 @@ use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::{Path, PathBuf};
 
-/// What is shown where no question is asked: the best of each kind first.
+/// The query that is used if none is given: the best of each kind first.
 const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaws, least_force AS force, \
      redesigns AS determinate, cost, round(transmission) AS transmission FROM grippers \
      UNION ALL SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
@@ -31,7 +31,7 @@ pub(in crate::cli) struct Query {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
-    /// A question in SQL; the best structures where left out. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
+    /// Question in SQL [default: the best structures]. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
     /// tables with all columns explained.
     #[arg(conflicts_with_all = ["WantedGrippers"])]
     sql: Option<String>,
@@ -46,22 +46,22 @@ pub(in crate::cli) struct Query {
     wanted: WantedGrippers,
 }
 
-/// The catalogue in a file.
+/// Opens the catalogue in a file.
 pub(super) fn open(file: &Path) -> anyhow::Result<Store> {
     ensure!(
         file.exists(),
-        "there is no file {0}; `ozols catalog build -o {0}` makes a catalogue",
+        "no file {0}; `ozols catalog build -o {0}` makes a catalogue",
         file.display()
     );
     output::kept::keep(file);
     Ok(Store::open(file)?)
 }
 
-/// The mechanism of a structure as TOML.
+/// Returns the mechanism of a structure as TOML.
 fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
     store.mechanism(id)?.with_context(|| {
         format!(
-            "{id} has no layout; `ozols catalog show {} {id}` says why",
+            "{id} has no layout; `ozols catalog show {} {id}` explains why",
             file.display()
         )
     })
@@ -96,12 +96,12 @@ pub(in crate::cli) struct Show {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
-    /// The structure: its id or the beginning of it, or its whole name.
+    /// Structure: its id, the beginning of it, or its whole name.
     id: String,
     /// JSON instead of text.
     #[arg(long)]
     json: bool,
-    /// Write its kinematic scheme to a file, too.
+    /// Also write its kinematic scheme to a file.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
@@ -137,9 +137,9 @@ pub(in crate::cli) struct Export {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
-    /// The structure: its id or the beginning of it, or its whole name.
+    /// Structure: its id, the beginning of it, or its whole name.
     id: String,
-    /// Carry out idea K.
+    /// Apply idea K.
     #[arg(long, value_name = "K", alias = "variant")]
     idea: Option<usize>,
     /// Format: toml, json, urdf, mjcf, sdf, dot or graphml.
@@ -180,7 +180,7 @@ pub(in crate::cli) struct Page {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
-    /// The page.
+    /// Page to write.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
 }
@@ -198,7 +198,7 @@ pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
 pub(in crate::cli) struct Find {
     #[command(flatten)]
     file: File,
-    /// A catalogue to look for it in.
+    /// Catalogue to search for the structure.
     #[arg(long = "in", value_name = "CATALOGUE", value_hint = ValueHint::FilePath)]
     within: Option<PathBuf>,
     /// JSON instead of text.
@@ -213,7 +213,7 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     let m = load::mechanism(&a.file)?;
     let found = recognize(&m).with_context(|| {
         format!(
-            "{}: not a structure of two jaws, or of three, that links, hinges, slides, gears and slots make",
+            "{}: not a gripper structure; it needs two or three jaws, and links joined by hinges, slides, gears and slots",
             a.file.file
         )
     })?;

@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Merge {
-    /// The parts.
+    /// Parts to merge.
     #[arg(required = true, value_hint = ValueHint::FilePath)]
     parts: Vec<PathBuf>,
-    /// The whole; where it is there already, it is added to.
+    /// Catalogue to write; an existing one is extended.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
     output: PathBuf,
 }
@@ -47,22 +47,22 @@ pub(super) fn merge(a: &Merge) -> anyhow::Result<Done> {
     })
 }
 
-/// Parts named one by one.
+/// Number of parts that are named one by one.
 const NAMED: usize = 12;
 
-/// What is missing of the whole, and how to come by it.
+/// Lists the missing parts of the whole, and how to make them.
 fn missing(merged: &Merged, whole: &Path) -> String {
     let mut out = String::new();
     for file in &merged.unfinished {
         out += &format!(
-            "{} does not say that all of its part is there: run the command that made it again, it adds what is missing\n",
+            "{} is not marked as complete; run the command that made it again, which adds what is missing\n",
             file.display()
         );
     }
     let whole = whole.display();
     let all = merged.missing.len();
     if merged.missing == [Shard::WHOLE] {
-        return out + &format!("{whole} is not known to be whole\n");
+        return out + &format!("{whole} is not known to be complete\n");
     }
     let more = match all.saturating_sub(NAMED) {
         0 => String::new(),
@@ -70,8 +70,8 @@ fn missing(merged: &Merged, whole: &Path) -> String {
     };
     let parts = merged.missing.iter().take(NAMED).join(", ");
     out + &format!(
-        "{whole} is not whole: of {} parts {parts}{more} {} missing; make them by `ozols catalog build --shard`, and merge them \
-         into the same file\n",
+        "{whole} is incomplete: of {} parts {parts}{more} {} missing; make them with `ozols \
+        catalog build --shard`, and merge them into the same file\n",
         merged.missing[0].of,
         if all == 1 { "is" } else { "are" },
     )

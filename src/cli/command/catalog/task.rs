@@ -6,44 +6,44 @@ use clap::Args as ClapArgs;
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Task")]
 pub(super) struct TaskArgs {
-    /// Widths of the parts to be held, in mm, from the narrowest to the widest; 0..50 by default.
+    /// Range of part widths in mm, as MIN..MAX [default: 0..50].
     #[arg(long, value_name = "A..B", value_parser = widths)]
     widths: Option<[f64; 2]>,
-    /// Whether parts are held from outside, or from inside a hole of them; outside by default.
+    /// Side from which parts are held: outside, or inside a hole [default: outside].
     #[arg(long, value_name = "SIDE", value_parser = side)]
     grip: Option<HeldFrom>,
-    /// How the jaws are to move: any, parallel or swinging; any by default.
+    /// Motion of the jaws: any, parallel or swinging [default: any].
     #[arg(long, value_name = "MOTION", value_parser = motion)]
     motion: Option<AskedMotion>,
-    /// The least force of a jaw over the stroke, at least: N for 1 N of a sliding drive, or for 1 Nm of a turning one; any by default.
+    /// Minimum jaw force over the stroke, per 1 N of a sliding or 1 N·m of a rotary drive [default: any].
     #[arg(long, value_name = "N")]
     least_force: Option<f64>,
-    /// The greatest force of a jaw over the least, over the stroke, at most; 3 by default.
+    /// Maximum ratio of the greatest jaw force to the least, over the stroke [default: 3].
     #[arg(long, value_name = "X")]
     force_ratio: Option<f64>,
-    /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; any by default.
+    /// Maximum width and height over the stroke of the box around pins, tips and pitch circles, in mm [default: any].
     #[arg(long, value_name = "WxH", value_parser = room)]
     room: Option<[f64; 2]>,
-    /// How far pins are apart over the stroke at least, in mm; any by default, and 14 as drawn is wished.
+    /// Minimum distance between pins over the stroke, in mm [default: any, and 14 as drawn is preferred].
     #[arg(long, value_name = "MM")]
     pin_distance: Option<f64>,
-    /// How far the tips are drawn ahead of all pins at least, in mm, where the part is ahead; any by default, and 25 is wished.
+    /// Minimum distance of the drawn tips ahead of all pins, in mm, if the part is ahead [default: any, and 25 is preferred].
     #[arg(long, value_name = "MM")]
     reach: Option<f64>,
-    /// Pins and pitch circles of each jaw's half keep on its side of the middle, where the part is ahead.
+    /// Keep the pins and pitch circles of each jaw on its own side of the centre line (for parts gripped from ahead).
     #[arg(long)]
     own_sides: bool,
-    /// How long a cylinder between two links is pulled out, from pin to pin, over pushed in, at most; 1.6 by default, 0 is any.
+    /// Maximum ratio of extended to retracted length of a cylinder between two links, from pin to pin [default: 1.6; 0: any].
     #[arg(long, value_name = "X")]
     pulled_out: Option<f64>,
-    /// What layouts that do the task are chosen for: balanced (a little of all), or force (the greatest least force of a jaw);
-    /// balanced by default.
+    /// Objective for layouts that fulfil the task: balanced (a little of all), or force (the greatest least force of a jaw)
+    /// [default: balanced].
     #[arg(long, value_name = "AIM", value_parser = aim)]
     aim: Option<Aim>,
 }
 
 impl TaskArgs {
-    /// Puts what is given in the place of what is there.
+    /// Replaces settings of a task by those given.
     pub(super) fn put(&self, task: &mut Task) {
         if let Some([from, to]) = self.widths {
             (task.narrowest, task.widest) = (from, to);
@@ -61,7 +61,7 @@ impl TaskArgs {
     }
 }
 
-/// Two numbers with a sign between them.
+/// Parses two numbers with a sign between them.
 fn two(text: &str, between: &str, such: &str) -> Result<[f64; 2], String> {
     let number = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite());
     let both = text

@@ -1,4 +1,4 @@
-//! What a designer wants of the grippers that are listed, as options of `ozols catalog query`.
+//! Conditions on the grippers that are listed, as options of `ozols catalog query`.
 
 use crate::catalog::store::{Store, StoreError};
 use crate::format::significant;
@@ -9,28 +9,28 @@ use serde_json::Value;
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Filters")]
 pub(super) struct WantedGrippers {
-    /// Those alone that do the task: open and close as far, with the force and the room asked.
+    /// Only grippers that fulfil the task: range of opening, force and room.
     #[arg(long)]
     does_task: bool,
-    /// Those alone that no other beats: the view `front`.
+    /// Only Pareto-optimal grippers: the view `front`.
     #[arg(long)]
     front: bool,
-    /// The least force of a jaw over the stroke from: N for 1 N of a sliding drive, or for 1 Nm of a turning one.
+    /// Minimum jaw force over the stroke, per 1 N of a sliding or 1 N·m of a rotary drive.
     #[arg(long, value_name = "N", value_parser = finite)]
     least_force: Option<f64>,
-    /// The greatest force of a jaw over the least at most.
+    /// Maximum ratio of the greatest jaw force to the least.
     #[arg(long, value_name = "X", value_parser = finite)]
     force_ratio: Option<f64>,
-    /// The turn of the jaws over the stroke at most, in degrees.
+    /// Maximum rotation of the jaws over the stroke, in degrees.
     #[arg(long, value_name = "DEGREES", value_parser = finite)]
     turn: Option<f64>,
-    /// The transmission angle over the stroke from, in degrees.
+    /// Minimum transmission angle over the stroke, in degrees.
     #[arg(long, value_name = "DEGREES", value_parser = finite)]
     transmission: Option<f64>,
-    /// The price of all its parts with the cheapest redesign at most, in revolute joints.
+    /// Maximum price of all parts with the cheapest redesign, in units of one revolute joint.
     #[arg(long, value_name = "X", value_parser = finite)]
     price: Option<f64>,
-    /// The cost of its cheapest redesign at most.
+    /// Maximum cost of its cheapest redesign.
     #[arg(long, value_name = "X", value_parser = finite)]
     cost: Option<f64>,
 }
@@ -40,13 +40,13 @@ fn finite(word: &str) -> Result<f64, String> {
     number.ok_or_else(|| "give a number, such as 0.5".to_owned())
 }
 
-/// One of the bounds that are asked.
+/// One of the given bounds.
 struct Filter {
-    /// As it is typed.
+    /// The option as typed.
     option: String,
-    /// In SQL.
+    /// The condition in SQL.
     holds: String,
-    /// The best value that there is, in SQL and in words; nothing where it is no number.
+    /// The best existing value, in SQL and in words. `None` if the bound is not a number.
     best: Option<(String, String)>,
 }
 
@@ -59,7 +59,7 @@ impl Filter {
         }
     }
 
-    /// Of a column that is to be `>=` or `<=` a number.
+    /// Returns the filter for a column that must be `>=` or `<=` a number.
     fn number(option: &str, column: &str, sign: &str, x: f64) -> Filter {
         let (function, word) = match sign {
             ">=" => ("max", "greatest"),
@@ -103,7 +103,7 @@ impl WantedGrippers {
         words.chain(numbers).collect()
     }
 
-    /// The question that asks for it; nothing where nothing is wanted.
+    /// Returns the query for the grippers that meet all bounds, or `None` if no bound is given.
     pub(super) fn question(&self) -> Option<String> {
         let all = self.bounds().iter().map(|b| b.holds.as_str()).join(" AND ");
         (!all.is_empty()).then(|| {
@@ -114,11 +114,10 @@ impl WantedGrippers {
         })
     }
 
-    /// Which bounds are in the way where nothing holds them all: how many grippers there are without each, and how near they come
-    /// to it.
+    /// Lists the bounds that exclude every gripper: the number of grippers without each bound, and how near they come to it.
     pub(super) fn in_the_way(&self, store: &Store) -> Result<String, StoreError> {
         let bounds = self.bounds();
-        let mut out = String::from("No gripper holds all of this.\n");
+        let mut out = String::from("No gripper meets all of these.\n");
         let mut found = false;
         for (i, bound) in bounds.iter().enumerate() {
             let others = bounds.iter().enumerate().filter(|(k, _)| *k != i);
@@ -141,7 +140,7 @@ impl WantedGrippers {
             out += "\n";
         }
         if !found {
-            out += "  Nor does any where one of the bounds is left out: two of them or more are in the way.\n";
+            out += "  Omitting one of the bounds gives none either: two or more of them exclude every gripper.\n";
         }
         Ok(out)
     }

@@ -10,15 +10,15 @@ use crate::view::terminal::layout::table;
 use itertools::Itertools;
 use std::path::Path;
 
-/// Columns of running text where the output is no terminal.
+/// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;
 
-/// A joint type as it stands in files, of what is typed.
+/// Returns the name of a joint type as files spell it.
 pub(super) fn word(typed: &str) -> String {
     typed.trim().to_lowercase().replace(['_', ' '], "-")
 }
 
-/// A row for each.
+/// Returns a table of all joint types, one row each.
 pub(super) fn all(width: Option<u16>) -> String {
     let words = PairWords::builtin();
     let rows = JointType::NAMED.iter().map(|t| {
@@ -37,7 +37,7 @@ pub(super) fn all(width: Option<u16>) -> String {
     table(&head, rows.collect(), width)
 }
 
-/// All that is known of one; its picture goes into a file.
+/// Explains one joint type; writes its picture to a file if one is given.
 pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Done> {
     if let Some(path) = file {
         draw_to(of, path)?;
@@ -60,7 +60,7 @@ pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Don
         }
         writeln!(out, "\n{}", example(of, needs))?;
         if needs {
-            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what is meant.";
+            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what you want.";
             writeln!(out, "\n{}", textwrap::fill(guess, width))?;
         }
         if file.is_none() {
@@ -70,7 +70,7 @@ pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Don
     })
 }
 
-/// Writes the picture of a joint type to a file, as PNG where its name says so.
+/// Writes the picture of a joint type to a file, as PNG if its name ends in .png.
 fn draw_to(of: &JointType, path: &Path) -> anyhow::Result<()> {
     let drawing = draw::joint_type(of);
     let bytes = if picture::named(Some(path)) {
@@ -86,7 +86,7 @@ fn draw_to(of: &JointType, path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Freedoms, class, axes, cost and hardware, a paragraph each.
+/// Returns freedoms, class, axes, cost and hardware, a paragraph each.
 fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
     let row = |head: &str, text: &str| {
         let options = textwrap::Options::new(width)
@@ -104,7 +104,7 @@ fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
     let constraints = plural(6 - of.freedoms().len(), "constraint");
     let class = format!("{} ({constraints})", of.class());
     let cost = format!(
-        "{} by default, in revolute joints; [search.costs] of a file or --costs states others (`ozols show costs`)",
+        "{} by default, in units of one revolute joint; [search.costs] of a file or --costs sets others (`ozols show costs`)",
         cost(of.default_cost_milli())
     );
     let also = of.trade_names().join(", ");
@@ -120,7 +120,7 @@ fn figures(of: &JointType, w: &PairWords, width: usize) -> Vec<String> {
     also.into_iter().chain(figures).collect()
 }
 
-/// A joint of the type as it stands in a file.
+/// Returns an example of the joint type as TOML.
 fn example(of: &JointType, needs_reference: bool) -> String {
     let screws = of.freedoms().contains(&Freedom::Screw);
     let own = if screws { "\nlead = 5" } else { "" };
@@ -135,7 +135,7 @@ fn example(of: &JointType, needs_reference: bool) -> String {
     )
 }
 
-/// A freedom in words.
+/// Describes a freedom in words.
 fn meaning(f: Freedom) -> &'static str {
     match f {
         Freedom::Rx => "(turn about x)",

@@ -1,11 +1,11 @@
-//! The memory that the process's own control group allows, and those that it is in: version 1 and version 2 of Linux's.
+//! The memory limit of the process's control group and of the groups around it: versions 1 and 2 of Linux.
 //!
 //! `sysinfo` reads the same from its version 0.39 on, which needs a later Rust than ozols does.
 
 use std::fs::read_to_string;
 use std::path::{Path, PathBuf};
 
-/// Bytes; none where there is no such limit, and off Linux.
+/// Returns the limit in bytes. `None` if there is no limit, and off Linux.
 pub(super) fn limit() -> Option<u64> {
     let own = read_to_string("/proc/self/cgroup").ok()?;
     let mounts = read_to_string("/proc/self/mountinfo").ok()?;
@@ -17,7 +17,7 @@ pub(super) fn limit() -> Option<u64> {
     limits.min()
 }
 
-/// The files that may hold a limit, those of the group itself first.
+/// Returns the files that may hold a limit, those of the group itself first.
 fn files(own: &str, mounts: &str) -> Vec<PathBuf> {
     let mut out = Vec::new();
     for line in own.lines() {
@@ -47,7 +47,7 @@ fn files(own: &str, mounts: &str) -> Vec<PathBuf> {
     out
 }
 
-/// Where a hierarchy of groups is seen.
+/// The place where a hierarchy of groups is mounted.
 struct Mount<'a> {
     root: PathBuf,
     at: PathBuf,

@@ -1,4 +1,4 @@
-//! Files that are written beside the ones they are to become, so that these are whole or not there at all.
+//! Temporary files next to the files they replace, so that these are either complete or unchanged.
 
 use crate::file::disk;
 use std::collections::BTreeSet;
@@ -9,22 +9,22 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::NamedTempFile;
 
-/// What names of such files begin with.
+/// Prefix of the names of such files.
 const PREFIX: &str = ".tmp-ozols-";
-/// How often a file is begun anew that somebody took for a left one.
+/// Number of attempts if another process removes the file as a leftover.
 const TRIES: usize = 100;
 
-/// The file that is being written, to be removed where the program ends in between, and the folders that were cleaned.
+/// The file that is being written, which is removed if the program ends before it is complete, and the folders that were cleaned.
 static BESIDE: Mutex<(Option<PathBuf>, BTreeSet<PathBuf>)> = Mutex::new((None, BTreeSet::new()));
 
 fn beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
     BESIDE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Whether what is written now may be less than what was asked for.
+/// True if the current output may be incomplete.
 static CUT: AtomicBool = AtomicBool::new(false);
 
-/// From now on what is written was cut short.
+/// Marks the output from now on as incomplete.
 pub(in crate::cli) fn cut_short() {
     CUT.store(true, Ordering::SeqCst);
 }
@@ -57,8 +57,8 @@ pub(super) fn begin(folder: &Path) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// Gives the file that was begun its name. What was interrupted does not take the place of something older that is whole: it is
-/// given a name beside it, which is returned.
+/// Gives the file its final name. An incomplete file does not replace an older complete one: it gets another name next to it,
+/// which is returned.
 pub(super) fn place(file: NamedTempFile, path: &Path, older: bool) -> io::Result<Option<PathBuf>> {
     let other = (older && CUT.load(Ordering::SeqCst)).then(|| interrupted(path));
     file.persist(other.as_deref().unwrap_or(path))?;
@@ -66,7 +66,7 @@ pub(super) fn place(file: NamedTempFile, path: &Path, older: bool) -> io::Result
     Ok(other)
 }
 
-/// `page.interrupted.html` for `page.html`.
+/// Returns `page.interrupted.html` for `page.html`.
 fn interrupted(path: &Path) -> PathBuf {
     let mut name: OsString = path.file_stem().unwrap_or_default().to_owned();
     name.push(".interrupted");

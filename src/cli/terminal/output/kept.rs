@@ -1,4 +1,4 @@
-//! Outputs that take the place of an input or of another output are refused.
+//! Protection of inputs and earlier outputs from being overwritten.
 
 use crate::file::disk;
 use anyhow::ensure;
@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The files that were written, by their places.
 static WRITTEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-/// What a database of SQLite begins with.
+/// The first bytes of a SQLite database.
 const DATABASE: [u8; 16] = *b"SQLite format 3\0";
 
 fn written() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -39,7 +39,7 @@ pub(in crate::cli) fn keep_standard_input() -> anyhow::Result<()> {
     apart_from_standard_output()
 }
 
-/// Whether a file is kept, by whatever name.
+/// Returns true if a file is protected, under any name.
 pub(in crate::cli) fn is_kept(path: &Path) -> bool {
     disk::was_read(path)
 }
@@ -54,14 +54,14 @@ pub(in crate::cli) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()
             .is_some_and(|file| disk::is_at(file, path));
         ensure!(
             !same,
-            "--{option} {shown} is also standard output, and one would take the place of the other; name another file"
+            "--{option} {shown} is also standard output, and one would overwrite the other; name another file"
         );
     }
     for ((one, first), (other, second)) in outputs.iter().tuple_combinations() {
         let shown = second.display();
         ensure!(
             is_device(first) || place(first) != place(second),
-            "--{one} and --{other} both write {shown}, and one would take the place of the other; name two files"
+            "--{one} and --{other} both write {shown}, and one would overwrite the other; name two files"
         );
     }
     Ok(())
@@ -76,7 +76,7 @@ fn place(path: &Path) -> PathBuf {
     there.or_else(new).unwrap_or_else(|| path.to_path_buf())
 }
 
-/// Whether what is written there goes through it, and stays nowhere: a pipe, a terminal.
+/// Returns true if a path is a pipe or terminal, which stores nothing.
 fn is_device(path: &Path) -> bool {
     path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir())
 }
@@ -86,7 +86,7 @@ pub(in crate::cli) fn apart(path: &Path) -> anyhow::Result<()> {
     let name = path.display();
     ensure!(
         !is_kept(path),
-        "{name} is what is read; name another file to write"
+        "{name} is the input; name another file to write"
     );
     ensure!(
         !is_database(path),
@@ -94,12 +94,12 @@ pub(in crate::cli) fn apart(path: &Path) -> anyhow::Result<()> {
     );
     ensure!(
         is_device(path) || !written().contains(&place(path)),
-        "{name} was written by this command already, and would be replaced; name two files"
+        "{name} was already written by this command and would be overwritten; name two files"
     );
     Ok(())
 }
 
-/// Notes that a file was written.
+/// Records that a file was written.
 pub(super) fn note_written(path: &Path) {
     written().push(place(path));
 }
@@ -109,7 +109,7 @@ pub(super) fn apart_from_standard_output() -> anyhow::Result<()> {
     let same = standard(std::io::stdout()).is_some_and(|file| disk::open_was_read(&file));
     ensure!(
         !same,
-        "standard output is the file that is read; send it to another file"
+        "standard output is the input file; send it to another file"
     );
     Ok(())
 }

@@ -279,9 +279,12 @@ fn what_leads_to_nothing_is_refused() {
     for (words, says) in [
         (
             "--one-pin only --symmetry half-turn",
-            "no structure is as asked",
+            "links meets the conditions",
         ),
-        ("--flat-faces only --pairs gear", "no structure is as asked"),
+        (
+            "--flat-faces only --pairs gear",
+            "links meets the conditions",
+        ),
         (
             "--jaws 3 --one-pin only",
             "one_pin: of structures with two jaws alone",

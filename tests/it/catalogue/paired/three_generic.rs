@@ -193,9 +193,9 @@ fn what_is_not_laid_out_is_refused_with_a_way_out() {
         ),
         (
             "--pairs slide --links 3",
-            "three jaws of four links at least",
+            "three jaws need at least four links",
         ),
-        ("--pairs slide --links 5", "links are even in number"),
+        ("--pairs slide --links 5", "the number of links is even"),
         ("--links 4", "--pairs"),
     ] {
         let words: Vec<&str> = BUILD
