@@ -1,4 +1,4 @@
-//! The mechanism file: one schema for TOML and JSON.
+//! The mechanism file, with one schema for TOML and JSON.
 
 mod grip;
 mod number;
@@ -22,31 +22,31 @@ pub use workload::{
     StiffnessEntry, StrokeEntry, WorkloadEntry,
 };
 
-/// A mechanism: links, joints, and what a search may change.
+/// A mechanism: links, joints, and the changes that a search may make.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MechanismFile {
     /// Short name, such as "four-bar".
     pub name: String,
-    /// One or two sentences for people.
+    /// Short description, one or two sentences.
     #[serde(default)]
     pub description: String,
-    /// Publications the mechanism and its figures come from.
+    /// Publications of the mechanism and its figures.
     #[serde(default)]
     pub sources: Vec<String>,
-    /// What the reader of another format took for granted or left out, a sentence each: figures are those of the file as read.
+    /// Assumptions and omissions of a conversion from another format, a sentence each. The figures are those of the file as read.
     #[serde(default)]
     pub assumed: Vec<String>,
-    /// Unit of all lengths: m (the default), mm, cm, um or in.
+    /// Unit of all lengths: m (default), mm, cm, um or in.
     pub length_unit: Option<String>,
-    /// "spatial" (the default, 6 rows per contour) or "planar" (3 rows).
+    /// "spatial" (default, 6 equations per loop) or "planar" (3 equations per loop).
     pub mode: Option<String>,
-    /// Normal of the plane of motion in planar mode; z by default.
+    /// Normal of the plane of motion in planar mode. Default: z.
     pub plane_normal: Option<[Coordinate; 3]>,
-    /// Numbers by name, for expressions: `[parameter]` with `height = 40`, and `point = [0, "2*height", 0]`.
+    /// Named numbers for expressions: `[parameter]` with `height = 40`, and `point = [0, "2*height", 0]`.
     #[serde(default)]
     pub parameter: BTreeMap<String, Coordinate>,
-    /// How well numbers are known: half a unit of their last digit where left out.
+    /// Accuracy of the numbers. Default: half a unit of their last digit.
     pub tolerance: Option<ToleranceEntry>,
     /// The rigid bodies.
     #[serde(default)]
@@ -57,27 +57,27 @@ pub struct MechanismFile {
     /// Joints that move in a fixed ratio: gears, belts, racks, mimic joints.
     #[serde(default)]
     pub coupling: Vec<CouplingEntry>,
-    /// A basis of contours, where a particular one is wanted.
+    /// A basis of loops, if a particular one is required.
     #[serde(default)]
     pub contour: Vec<ContourEntry>,
-    /// Points of interest on links, which drawings show, with their way over a stroke.
+    /// Points of interest on links. Drawings show them and their paths over a stroke.
     #[serde(default)]
     pub point: Vec<PointEntry>,
-    /// What a search may do.
+    /// Options of the search.
     #[serde(default)]
     pub search: SearchEntry,
-    /// Loads and drive, for `ozols statics`.
+    /// Loads and drive.
     #[serde(default)]
     pub workload: WorkloadEntry,
-    /// How `ozols search` ranks variants under the workload; by cost alone where left out.
+    /// Ranking of variants under the workload. Default: by cost only.
     pub ranking: Option<RankingEntry>,
-    /// What joint types bear, in place of the built-in catalogue: `[joint_types.spherical]`.
+    /// Capacity of joint types, replacing the built-in catalogue: `[joint_types.spherical]`.
     #[serde(default)]
     pub joint_types: BTreeMap<String, JointTypeEntry>,
-    /// Known figures, which `ozols check` compares with those of the analysis.
+    /// Known figures. `ozols check` compares them with the analysis.
     #[serde(default)]
     pub expected: Vec<ExpectedEntry>,
-    /// What publications say of this mechanism, so or not; repeated by the command that it is about.
+    /// Claims of publications about this mechanism, true or false. The command for the topic prints them.
     #[serde(default)]
     pub claim: Vec<ClaimEntry>,
 }
@@ -88,13 +88,13 @@ pub struct MechanismFile {
 pub struct LinkEntry {
     /// Name, unique among links.
     pub id: String,
-    /// "frame", "output" or "object"; nothing for the rest.
+    /// "frame" (ground), "output" or "object" (clamped part). Omit it for other links.
     pub role: Option<String>,
     /// Mass in kg.
     pub mass: Option<f64>,
-    /// Mass centre, at the pose of the file.
+    /// Centre of mass in the drawn pose.
     pub centre: Option<[Coordinate; 3]>,
-    /// Inertia about the mass centre in kg·m²: a number about the plane's normal, or 3 or 6 in space.
+    /// Inertia about the centre of mass in kg·m²: one number about the normal of the plane, or 3 or 6 numbers in space.
     pub inertia: Option<InertiaEntry>,
 }
 
@@ -104,9 +104,9 @@ pub struct LinkEntry {
 pub struct JointEntry {
     /// Name, unique among joints.
     pub id: String,
-    /// The two links.
+    /// The two links that it connects.
     pub links: [String; 2],
-    /// Its type, of those that [`JointType`] has.
+    /// Joint type, one of those of [`JointType`].
     #[schemars(description = format!("Type: {}.", disjunction(JointType::words())))]
     #[schemars(extend("enum" = joint_words()))]
     #[serde(rename = "type")]
@@ -115,41 +115,41 @@ pub struct JointEntry {
     pub freedoms: Option<Vec<String>>,
     /// Origin of the joint's frame.
     pub point: [Coordinate; 3],
-    /// Direction of z, of any length; z where left out for spherical and fixed joints.
+    /// Direction of z (joint axis), of any length. Default for spherical and fixed joints: z.
     pub axis: Option<[Coordinate; 3]>,
-    /// Direction that x is made from; by default the first of the global x, y, z not parallel to the axis.
+    /// Direction that defines x. Default: the first of the global x, y, z that is not parallel to the axis.
     pub reference: Option<[Coordinate; 3]>,
-    /// Translation per turn of a helical joint: what catalogues of screws call its lead.
+    /// Lead of a helical joint: translation per turn.
     pub lead: Option<Coordinate>,
-    /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
+    /// Pitch of a helical joint: translation per radian. Use it instead of the lead; it may contain pi: "5/(2*pi)".
     pub pitch: Option<Coordinate>,
-    /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
+    /// Uncertainty of the point, in the file's unit of length; 0 if it is exact.
     pub tolerance: Option<Coordinate>,
-    /// Whether the mechanism is driven here: true, or the freedom that is driven, such as "tz", where the joint has several. A
-    /// driven joint is not changed unless it has options of its own.
+    /// True if this joint is driven, or the driven freedom, such as "tz", if the joint has several. A search does not change a
+    /// driven joint unless it has its own options.
     #[serde(default)]
     pub drive: DriveWord,
-    /// The state, or list of states, in which the joint is present; all where left out.
+    /// State or states in which the joint is present. Default: all.
     pub state: Option<Words>,
-    /// What a search may put here instead of the `[search]` list.
+    /// Joint types that a search may put here, replacing the `[search]` list.
     pub options: Option<Vec<OptionEntry>>,
-    /// Names of options never put here.
+    /// Names of options that a search must not put here.
     #[serde(default)]
     pub forbid: Vec<String>,
-    /// Joints that may be inserted here in series: true for those of `[search]`, or a list.
+    /// Joints that may be inserted in series here: true for those of `[search]`, or a list.
     pub unloading: Option<Unloading>,
 }
 
-/// Whether a joint is driven, and where.
+/// Drive of a joint: false, true, or the driven freedom.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "expected true, false or the freedom that is driven, such as \"tz\""
 )]
 pub enum DriveWord {
-    /// In its only freedom, or in the one that takes the greatest part in the motion of the outputs.
+    /// True: its only freedom is driven, or the one that contributes most to the motion of the outputs.
     Driven(bool),
-    /// In this one: rx, ry, rz, tx, ty, tz, screw.
+    /// The driven freedom: rx, ry, rz, tx, ty, tz, screw.
     Freedom(String),
 }
 
@@ -159,7 +159,7 @@ impl Default for DriveWord {
     }
 }
 
-/// Whether and what unloading joints may be inserted.
+/// Unloading joints that may be inserted at a joint: true, false, or a list.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
@@ -168,11 +168,11 @@ impl Default for DriveWord {
 pub enum Unloading {
     /// True: those of `[search]`.
     Allowed(bool),
-    /// These.
+    /// These options.
     List(Vec<OptionEntry>),
 }
 
-/// A joint that a search may put somewhere: a type name or a table.
+/// A joint option of a search: a type name or a table.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
@@ -186,7 +186,7 @@ pub enum OptionEntry {
 }
 
 impl OptionEntry {
-    /// The option spelt out.
+    /// Returns the option as a table.
     pub(crate) fn table(&self) -> Cow<'_, OptionTable> {
         match self {
             OptionEntry::Table(table) => Cow::Borrowed(table),
@@ -198,49 +198,49 @@ impl OptionEntry {
     }
 }
 
-/// A joint option spelt out.
+/// A joint option as a table.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionTable {
-    /// The type; custom where only freedoms are given.
+    /// Joint type. Default: custom, if freedoms are given.
     #[serde(rename = "type")]
     pub kind: Option<String>,
     /// Freedoms of a custom joint.
     pub freedoms: Option<Vec<String>>,
-    /// Origin, the joint's own by default.
+    /// Origin of the frame. Default: that of the joint.
     pub point: Option<[Coordinate; 3]>,
-    /// Direction of z, the joint's own by default.
+    /// Direction of z. Default: that of the joint.
     pub axis: Option<[Coordinate; 3]>,
-    /// Direction that x is made from; by default the joint's own, and where that is parallel to the option's axis, the first of
-    /// the global x, y, z not parallel to it.
+    /// Direction that defines x. Default: that of the joint. If this is parallel to the option's axis: the first of the global x,
+    /// y, z that is not parallel to it.
     pub reference: Option<[Coordinate; 3]>,
-    /// Translation per turn of a helical joint: what catalogues of screws call its lead.
+    /// Lead of a helical joint: translation per turn.
     pub lead: Option<Coordinate>,
-    /// Translation per radian of a helical joint, in place of its lead; may have pi in it: "5/(2*pi)".
+    /// Pitch of a helical joint: translation per radian. Use it instead of the lead; it may contain pi: "5/(2*pi)".
     pub pitch: Option<Coordinate>,
     /// Name shown in results.
     pub name: Option<String>,
-    /// Cost, in place of the table's.
+    /// Cost, replacing the value of the table of costs.
     pub cost: Option<f64>,
-    /// The state that must be searched for it to be offered; offered in any search where left out.
+    /// State that must be searched to allow this option. Default: allowed in every search.
     pub state: Option<String>,
 }
 
-/// Two joints that move in a fixed ratio.
+/// A coupling: two joints that move in a fixed ratio.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingEntry {
-    /// The two joints; "joint:freedom", such as "a:tz", for a joint of several freedoms.
+    /// The two joints. For a joint of several freedoms use "joint:freedom", such as "a:tz".
     pub joints: [String; 2],
-    /// Rate of the second joint over that of the first, in radians and the file's length unit: "-1/2" for a pair of
+    /// Velocity of the second joint divided by that of the first, in radians and the file's length unit. Examples: "-1/2" for
     /// gears of 20 and 40 teeth, the pitch radius for a pinion and its rack.
     pub ratio: Coordinate,
-    /// Gears make it, or a rack and its pinion: it is drawn as their pitch circles. Anything else is drawn as a line.
+    /// True for gears or a rack and pinion, which are drawn as pitch circles. Other couplings are drawn as a line.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub gear: bool,
 }
 
-/// A contour of the basis, by its joints in order.
+/// A closed loop (contour) of the basis, given by its joints in order.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourEntry {
@@ -256,29 +256,29 @@ pub struct PointEntry {
     pub id: String,
     /// The link that it is fixed to.
     pub link: String,
-    /// Where it is at the pose of the file.
+    /// Position in the drawn pose.
     pub point: [Coordinate; 3],
-    /// The point is within so much of what is meant, in the file's unit of length; 0 where it is exact.
+    /// Uncertainty of the point, in the file's unit of length; 0 if it is exact.
     pub tolerance: Option<Coordinate>,
 }
 
-/// What a search may do.
+/// Options of the search.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SearchEntry {
-    /// Options of joints without their own, except drives, fixed joints and contacts.
+    /// Joint types for all joints without their own options, except drives, fixed joints and contacts.
     pub options: Vec<OptionEntry>,
-    /// Unloading joints for places with `unloading = true`.
+    /// Unloading joints for joints with `unloading = true`.
     pub unloading: Vec<OptionEntry>,
-    /// Links besides the outputs that must not gain a motion.
+    /// Links that must not gain a motion, in addition to the outputs.
     pub hold: Vec<String>,
     /// Pairs of joints that are mirror images.
     pub mirror: Vec<[String; 2]>,
-    /// Joints that become each other when the mechanism is turned about one axis, each the next and the last the first: pairs by
-    /// half a turn, or groups of three by a third. Not beside mirror images.
+    /// Joints that are mapped to each other by a rotation about one axis, each to the next and the last to the first: pairs for
+    /// half a turn, or groups of three for a third. Cannot be combined with mirror images.
     pub turn: Vec<Vec<String>>,
-    /// Costs by option or type name, and `change`, `driven` (of changing a driven joint besides), `link` and `harmful` (of each
-    /// harmful redundant constraint that a searched state adds).
+    /// Costs by option or type name, and `change`, `driven` (extra cost of changing a driven joint), `link` and `harmful` (cost
+    /// of each harmful redundant constraint that a searched state adds).
     pub costs: BTreeMap<String, f64>,
 }
 
@@ -286,19 +286,19 @@ pub struct SearchEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedEntry {
-    /// The state; free by default.
+    /// State. Default: free.
     pub state: Option<String>,
-    /// W, instantaneous, idle freedoms included.
+    /// Instantaneous mobility W, including idle freedoms.
     pub mobility: Option<i64>,
-    /// W of the motion that is really there; smaller than `mobility` at singular and shaky poses.
+    /// Finite (full-cycle) mobility. It is smaller than `mobility` at singular and shaky poses.
     pub finite_mobility: Option<i64>,
     /// Dimension of the output links' motion.
     pub working_mobility: Option<i64>,
-    /// W less the working mobility.
+    /// W minus the working mobility.
     pub local_mobility: Option<i64>,
-    /// σ of the whole state.
+    /// Number of redundant constraints σ of the whole state.
     pub redundant: Option<i64>,
-    /// σ that the state adds to the free one.
+    /// Number of redundant constraints that the state adds to the free one.
     pub external_redundant: Option<i64>,
     /// Publication or derivation.
     #[serde(default)]
@@ -309,22 +309,22 @@ pub struct ExpectedEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClaimEntry {
-    /// What it is about: "structure", "grip", "drive" or "statics".
+    /// Topic: "structure", "grip", "drive" or "statics".
     pub topic: String,
-    /// The publication and the place in it.
+    /// Publication, and the place in it.
     pub source: String,
-    /// What is said there.
+    /// The claim.
     pub says: String,
-    /// What is right instead; left out where the claim holds.
+    /// Correct statement. Omit it if the claim holds.
     pub right: Option<String>,
-    /// The part of a scanned text that a refutation rests on, where a misread letter would explain it.
+    /// Part of a scanned text that a refutation rests on, if a misread letter could explain it.
     pub scan: Option<String>,
-    /// What that rests on.
+    /// Evidence for the correct statement.
     pub evidence: String,
 }
 
 impl MechanismFile {
-    /// The file as JSON, without what is left at its default.
+    /// Returns the file as JSON, without values that equal their default.
     #[must_use]
     pub fn json(&self) -> Value {
         let mut value = serde_json::to_value(self).unwrap_or_default();
@@ -333,7 +333,7 @@ impl MechanismFile {
     }
 }
 
-/// Removes what says nothing: null, false, "" (but for names) and empty tables and lists.
+/// Removes empty values: null, false, "" (except names) and empty tables and lists.
 fn strip(value: &mut Value) {
     match value {
         Value::Array(items) => items.iter_mut().for_each(strip),
@@ -351,7 +351,7 @@ fn strip(value: &mut Value) {
     }
 }
 
-/// The JSON Schema of the file, which its `$id` names with the number of the contract.
+/// Returns the JSON Schema of the file; its `$id` contains the number of the contract.
 ///
 /// # Examples
 /// ```

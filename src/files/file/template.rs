@@ -14,8 +14,8 @@ const COLUMNS: usize = 100;
 
 /// What to edit, by the path of the key; the schema says what each key is.
 const ADVICE: [(&str, &str); 10] = [
-    ("description", "Say what yours is."),
-    ("sources", "Put your own, or delete this."),
+    ("description", "Describe your mechanism."),
+    ("sources", "Give your own sources, or delete this."),
     (
         "link",
         "Begin each with [[link]]. Exactly one is the frame, at least one an output.",
@@ -30,17 +30,20 @@ const ADVICE: [(&str, &str); 10] = [
     ),
     (
         "contour",
-        "May be left out: then the shortest are taken. Edit these when you add or remove joints, or delete them.",
+        "Optional; by default the shortest loops are used. Edit these when you add or remove joints, or delete them.",
     ),
-    ("search", "Name the joints that you can make."),
-    ("search.mirror", "Delete this where yours is not symmetric."),
+    ("search", "List the joint types that you can make."),
+    (
+        "search.mirror",
+        "Delete this if your mechanism is not symmetric.",
+    ),
     (
         "ranking",
         "Without this table the cheapest variants come first.",
     ),
     (
         "expected",
-        "They hold for the mechanism as it was built in: `ozols check` says where they differ from yours. Change or delete them.",
+        "They hold for the built-in mechanism: `ozols check` reports where yours differs. Change or delete them.",
     ),
 ];
 
@@ -78,15 +81,15 @@ pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError
     let mut head = String::new();
     let mut say = |text: &str| comment(&mut head, text);
     say(&format!(
-        "{name}: a mechanism for ozols, made of the built-in {from} by `ozols new`."
+        "{name}: a mechanism for ozols, made from the built-in {from} by `ozols new`."
     ));
     say(
-        "Edit it, then: `ozols check FILE` says what is wrong, `ozols analyze FILE` what is redundant, `ozols search FILE` what to change.",
+        "Edit it, then run `ozols check FILE` for errors, `ozols analyze FILE` for redundant constraints, `ozols search FILE` for redesigns.",
     );
     let more = unused(&root, [document.as_table()].into_iter());
     if !more.is_empty() {
         say(&format!(
-            "Keys and tables it does without: {} (see `ozols schema`).",
+            "Keys and tables that it does not use: {} (see `ozols schema`).",
             more.join(", ")
         ));
     }
@@ -227,7 +230,7 @@ fn inline_keys(out: &mut String, keys: &BTreeSet<String>, schema: &Value) {
 fn also<'t>(out: &mut String, schema: &Value, tables: impl Iterator<Item = &'t Table>) {
     let more = unused(schema, tables);
     if !more.is_empty() {
-        comment(out, &format!("May also have: {}.", more.join(", ")));
+        comment(out, &format!("It may also have: {}.", more.join(", ")));
     }
 }
 

@@ -31,9 +31,9 @@ impl Default for Coordinate {
     expecting = "expected a number, or a number with its unit in quotes such as \"360deg\""
 )]
 pub enum Quantity {
-    /// In SI, lengths in the file's unit.
+    /// A number in SI units, lengths in the file's unit.
     Number(f64),
-    /// With a unit.
+    /// A number with a unit.
     Text(String),
 }
 
@@ -41,19 +41,19 @@ pub enum Quantity {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged, expecting = "expected a number or a list of numbers")]
 pub enum Quantities {
-    /// One.
+    /// One quantity.
     One(Quantity),
-    /// Several.
+    /// Several quantities.
     Many(Vec<Quantity>),
 }
 
-/// How well the numbers of the file are known, in place of half a unit of their last digit; expressions are exact all the same.
+/// Accuracy of the numbers of the file, instead of half a unit of their last digit. Expressions are always exact.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToleranceEntry {
-    /// Points, pitches and leads are within so much of what is meant, in the file's unit of length; 0 where they are exact.
+    /// Uncertainty of points, pitches and leads, in the file's unit of length; 0 if they are exact.
     pub length: Option<Coordinate>,
-    /// Axes and references are, in radians; 0 where they are exact.
+    /// Uncertainty of axes and references, in radians; 0 if they are exact.
     pub direction: Option<Coordinate>,
 }
 
@@ -61,8 +61,8 @@ pub struct ToleranceEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged, expecting = "expected a word in quotes or a list of them")]
 pub enum Words {
-    /// One.
+    /// One word.
     One(String),
-    /// Several.
+    /// Several words.
     Many(Vec<String>),
 }

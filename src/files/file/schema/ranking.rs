@@ -5,20 +5,20 @@ use crate::model::ranking::Term;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How `ozols search` ranks variants under the workload.
+/// Ranking of variants under the workload, for `ozols search`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RankingEntry {
-    /// "weighted" (the default), "lexicographic" or "pareto".
+    /// "weighted" (default), "lexicographic" or "pareto".
     pub order: Option<String>,
-    /// The terms, the most important first.
+    /// Terms, the most important first.
     pub terms: Vec<TermEntry>,
-    /// Bounds that variants must keep.
+    /// Limits that variants must meet.
     pub limits: Vec<LimitEntry>,
-    /// How clearances add up to the output error: "worst" (the default) or "rms".
+    /// Combination of clearances to the output error: "worst" (default) or "rms".
     pub clearance: Option<String>,
-    /// The states that count, "free" or those with the contacts of [workload.grip]; all of them that have loads where left
-    /// out. A variant's score is the worst over them.
+    /// States to rank in: "free", or those with the contacts of [workload.grip]. Default: all of them that have loads. The score
+    /// of a variant is the worst of these states.
     pub states: Vec<String>,
 }
 
@@ -26,44 +26,44 @@ pub struct RankingEntry {
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TermEntry {
-    /// Its word, of those that [`Term`] has.
+    /// Term, one of those of [`Term`].
     #[schemars(description = terms())]
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
-    /// Its weight, 1 by default.
+    /// Weight of the term. Default: 1.
     pub weight: Option<f64>,
 }
 
-/// The words of terms with what they mean.
+/// Lists the terms with their meanings.
 fn terms() -> String {
     let each = Term::ALL.map(Term::about);
     let each = each.map(|a| format!("{} ({})", a.word, a.meaning));
     format!("{}.", disjunction(each.iter().map(String::as_str)))
 }
 
-/// A bound.
+/// A limit on a term.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitEntry {
     /// The term.
     #[schemars(extend("enum" = Term::ALL.map(Term::name)))]
     pub term: String,
-    /// Not below.
+    /// Lower limit.
     pub min: Option<f64>,
-    /// Not above.
+    /// Upper limit.
     pub max: Option<f64>,
 }
 
-/// What a joint type bears, in place of the catalogue's figures.
+/// Capacity of a joint type, replacing the figures of the catalogue.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointTypeEntry {
-    /// Its cost, as under `[search.costs]`.
+    /// Cost, as under `[search.costs]`.
     pub cost: Option<f64>,
-    /// The force it bears in N.
+    /// Force capacity in N.
     pub capacity_force: Option<f64>,
-    /// The moment it bears in N·m.
+    /// Moment capacity in N·m.
     pub capacity_moment: Option<f64>,
-    /// Play between its parts, from the middle to the end, in m.
+    /// Clearance (play) between its parts, from the middle to the end, in m.
     pub clearance: Option<f64>,
 }

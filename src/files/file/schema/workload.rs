@@ -6,26 +6,26 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Loads and drive, for `ozols statics`; a gripper, for `ozols grip`.
+/// Loads and drive, for `ozols statics`, and a gripper, for `ozols grip`.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WorkloadEntry {
-    /// Acceleration of gravity in m/s², such as [0, -9.81, 0]; none where left out.
+    /// Acceleration of gravity in m/s², such as [0, -9.81, 0]. Default: none.
     pub gravity: Option<[Coordinate; 3]>,
-    /// Forces from outside.
+    /// External forces.
     pub force: Vec<ForceEntry>,
-    /// Moments from outside.
+    /// External moments.
     pub moment: Vec<MomentEntry>,
-    /// Faces of the contacts with a clamped object, for `ozols statics --unilateral`.
+    /// Faces of the contacts with a clamped part, for `ozols statics --unilateral`.
     pub contact: Vec<ContactEntry>,
-    /// Stiffness of joints by the name of their type, `default` for the rest: `[workload.stiffness.spherical]`.
+    /// Stiffness of joints by the name of their type, `default` for all others: `[workload.stiffness.spherical]`.
     pub stiffness: BTreeMap<String, StiffnessEntry>,
-    /// Joints made or mounted askew.
+    /// Joints that are made or mounted misaligned.
     pub misalignment: Vec<MisalignmentEntry>,
-    /// Speed of the drive in rad/s, or the file's length unit per second; "60rpm" and "30deg/s" will do too. One for
-    /// each drive where there are several.
+    /// Speed of the drive in rad/s, or the file's length unit per second; "60rpm" and "30deg/s" work, too. With several drives,
+    /// one speed per drive.
     pub drive_speed: Option<Quantities>,
-    /// The cycle.
+    /// Range of the first drive over the cycle.
     pub stroke: Option<StrokeEntry>,
     /// Clamping levers and what they must hold, for `ozols grip`.
     pub grip: Option<GripEntry>,
@@ -39,25 +39,25 @@ pub struct WorkloadEntry {
 pub struct ForceEntry {
     /// The link it acts on.
     pub link: String,
-    /// Its point at the pose of the file.
+    /// Its point in the drawn pose.
     pub point: [Coordinate; 3],
     /// The force in N.
     pub force: [Coordinate; 3],
-    /// It acts from this position of the first drive, in each turn: radians or "90deg", or the file's length unit.
+    /// Position of the first drive at which it begins to act, in each turn: radians or "90deg", or the file's length unit.
     pub from: Option<Quantity>,
-    /// And up to this one.
+    /// Position of the first drive at which it stops acting.
     pub to: Option<Quantity>,
-    /// State or states it acts in, such as "free" for a force that stands for a part; all where left out.
+    /// State or states in which it acts, such as "free" for a force that represents a part. Default: all.
     pub state: Option<Words>,
 }
 
-/// A range of the first drive's position, counted from the pose of the file.
+/// A range of the first drive, relative to the drawn pose.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StrokeEntry {
-    /// Where it begins: radians or "90deg", or the file's length unit.
+    /// Start: radians or "90deg", or the file's length unit.
     pub from: Quantity,
-    /// Where it ends.
+    /// End.
     pub to: Quantity,
     /// Number of equal steps.
     pub steps: i64,
@@ -71,125 +71,126 @@ pub struct MomentEntry {
     pub link: String,
     /// The moment in N·m.
     pub moment: [Coordinate; 3],
-    /// State or states it acts in; all where left out.
+    /// State or states in which it acts. Default: all.
     pub state: Option<Words>,
 }
 
-/// The face of a contact between a jaw and an object.
+/// The face of a contact between a jaw and a clamped part.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactEntry {
     /// The joint.
     pub joint: String,
-    /// Coefficient of friction; as much friction as it takes where left out.
+    /// Coefficient of friction. Default: as much friction as needed.
     pub friction: Option<Coordinate>,
-    /// Radius of the face, within which the pressure has its centre; anywhere where left out.
+    /// Radius of the face, within which the centre of pressure lies. Default: anywhere.
     pub radius: Option<Coordinate>,
 }
 
-/// Stiffness of a joint where it does not move.
+/// Stiffness of a joint in the directions in which it does not move.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessEntry {
-    /// In N/m.
+    /// Linear stiffness in N/m.
     pub linear: f64,
-    /// In N·m/rad.
+    /// Angular stiffness in N·m/rad.
     pub angular: f64,
 }
 
-/// A joint whose second link is turned or shifted against its first where nothing strains it: an angle or a length.
+/// A joint whose second link is rotated or shifted relative to its first in the unstrained state, by an angle or a length.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MisalignmentEntry {
     /// The joint.
     pub joint: String,
-    /// Small turn: radians or "0.1deg".
+    /// Small rotation: radians or "0.1deg".
     pub angle: Option<Quantity>,
     /// Small shift, in the file's unit of length.
     pub length: Option<f64>,
-    /// About or along x, y or z of the joint's own frame.
+    /// Axis of the rotation or shift: x, y or z of the joint's own frame.
     pub axis: String,
 }
 
-/// Inertia about the mass centre: a number for the plane, three about the axes, or six of a tensor: xx, yy, zz, xy, yz, zx.
+/// Inertia about the centre of mass: a number for the plane, three about the axes, or six of a tensor: xx, yy, zz, xy, yz, zx.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "expected one number, or a list of 3 or 6 numbers"
 )]
 pub enum InertiaEntry {
-    /// About the plane's normal.
+    /// One number, about the plane's normal.
     Plane(f64),
-    /// xx, yy, zz, and perhaps xy, yz, zx.
+    /// xx, yy, zz, and optionally xy, yz, zx.
     List(#[schemars(length(min = 3, max = 6))] Vec<f64>),
 }
 
-/// Two discs on a torsion bar, for `ozols drive`. Lengths in the file's unit; angles in degrees, or as "120deg", "2.1rad",
-/// "pi/2"; all else in SI units.
+/// Two discs on a torsion bar, for `ozols drive`. Lengths are in the file's unit; angles are in degrees, or written as "120deg",
+/// "2.1rad", "pi/2"; all other quantities are in SI units.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DriveEntry {
-    /// 2 φ0, from one latched position to the next.
+    /// Swing angle 2 φ0, from one latched position to the next.
     pub swing_angle: Coordinate,
-    /// τ in s, a whole oscillation: two swings.
+    /// Period τ in s, a full oscillation of two swings.
     pub period: Option<Coordinate>,
-    /// Time of one swing in s, in place of `period`.
+    /// Time of one swing in s, instead of `period`.
     pub swing_time: Option<Coordinate>,
-    /// I in kg·m², the largest inertia of a disc with its payload.
+    /// Inertia I in kg·m², the largest of a disc with its payload.
     pub inertia: Option<Coordinate>,
-    /// Inertia in kg·m² of the bare disc, in place of `inertia`; with the payload.
+    /// Inertia in kg·m² of the bare disc, instead of `inertia`; needs the payload.
     pub disc_inertia: Option<Coordinate>,
-    /// The link whose mass and inertia are those of the bare disc, in place of `disc_inertia`; it turns on the frame.
+    /// Link with the mass and inertia of the bare disc, instead of `disc_inertia`; it turns on the frame.
     pub disc_link: Option<String>,
     /// Mass of the payload in kg, taken as a point.
     pub payload_mass: Option<Coordinate>,
-    /// From the axis to the payload.
+    /// Distance from the axis to the payload.
     pub payload_radius: Option<Coordinate>,
-    /// Inertia of the second disc in kg·m² where it differs.
+    /// Inertia of the second disc in kg·m², if it differs.
     pub second_inertia: Option<Coordinate>,
-    /// G of the bar in Pa.
+    /// Shear modulus G of the bar in Pa.
     pub shear_modulus: Coordinate,
     /// Allowable shear stress of the bar in Pa.
     pub allowable_stress: Coordinate,
-    /// Length of the bar to begin with; it is lengthened until strong enough.
+    /// Initial length of the bar. It is increased until the bar is strong enough.
     pub torsion_length: Option<Coordinate>,
-    /// Greatest length of the bar.
+    /// Maximum length of the bar.
     pub max_length: Option<Coordinate>,
-    /// Diameters that bars come in; any where left out.
+    /// Available diameters of bars. Default: any.
     #[serde(default)]
     pub diameters: Vec<Coordinate>,
-    /// Δφ, the angle missing after a swing without the cam, measured.
+    /// Angle Δφ missing after a swing without the cam, measured.
     pub missing_angle: Option<Coordinate>,
-    /// Damping moment per speed in N·m·s/rad.
+    /// Viscous damping in N·m·s/rad.
     pub viscous_damping: Option<Coordinate>,
     /// Moment of dry friction in N·m.
     pub friction_moment: Option<Coordinate>,
-    /// S, stroke of the cam spring's end.
+    /// Stroke S of the end of the cam spring.
     pub spring_stroke: Option<Coordinate>,
-    /// ψ0, deformation of the mounted spring over its stroke; 0 where left out.
+    /// Mounting coefficient ψ0: deformation of the mounted spring divided by its stroke. Default: 0.
     pub mounting_coefficient: Option<Coordinate>,
-    /// η, mean efficiency of the cam; 1 where left out.
+    /// Mean efficiency η of the cam. Default: 1.
     pub cam_efficiency: Option<Coordinate>,
-    /// From the disc's axis to the centre of the follower's roller where it is lifted; with `roller_radius` the cam's profile
-    /// follows.
+    /// Distance from the disc's axis to the centre of the lifted follower roller. With `roller_radius` it defines the cam's
+    /// profile.
     pub cam_radius: Option<Coordinate>,
     /// Radius of the follower's roller.
     pub roller_radius: Option<Coordinate>,
-    /// Work of the cam in a swing in J, in place of what friction takes by equation (12).
+    /// Work of the cam per swing in J, replacing the friction loss of equation (12).
     pub feed_energy: Option<Coordinate>,
-    /// Where the cam begins to push, from the middle of the swing; the middle where left out. It pushes up to the latch.
+    /// Angle from the middle of the swing at which the cam begins to push. Default: the middle. It pushes up to the latch.
     pub feed_from: Option<Coordinate>,
-    /// In place of `feed_energy` and `feed_from`, a push of several moments: where each piece begins, from the middle of the
-    /// swing, and its moment in N·m, as in [[0, 0.5], [20, 0.3]]. The last lasts up to the latch.
+    /// A push of several moments, instead of `feed_energy` and `feed_from`: start of each piece, from the middle of the swing,
+    /// and its moment in N·m, as in [[0, 0.5], [20, 0.3]]. The last piece ends at the latch.
     pub feed_moments: Option<Vec<[Coordinate; 2]>>,
-    /// How far short of its groove a latch still catches a disc; 1 degree where left out.
+    /// Maximum distance from its groove at which a latch still catches a disc. Default: 1 degree.
     pub latch_capture: Option<Coordinate>,
-    /// "stepwise" (the default): the discs take turns, and both step on the same way; "reversing": one disc goes to and fro.
+    /// "stepwise" (default): the discs take turns, and both step in the same direction. "reversing": one disc moves back and
+    /// forth.
     pub motion: Option<String>,
-    /// Number of swings; 8 where left out.
+    /// Number of swings. Default: 8.
     pub swings: Option<i64>,
-    /// Dwell after each swing in s; none where left out.
+    /// Dwell after each swing, in s. Default: none.
     pub dwell: Option<Coordinate>,
-    /// In place of `motion`, `swings` and `dwell`: steps such as ["1", "wait 0.3", "2"], a disc swinging or a dwell in s.
+    /// Steps such as ["1", "wait 0.3", "2"], instead of `motion`, `swings` and `dwell`: a swing of a disc, or a dwell in s.
     pub programme: Option<Vec<String>>,
 }
