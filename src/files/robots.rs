@@ -42,7 +42,7 @@ use std::collections::BTreeMap;
 /// Why these are not freedoms of the joints that are there, in words that follow the redesign's name.
 pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, String> {
     if after.joints.len() != before.joints.len() {
-        return Err("puts in joints that are not of one joint's kind; choose another".to_owned());
+        return Err("inserts joints that are not of one joint's kind; choose another".to_owned());
     }
     let mut out = Vec::new();
     for (i, (old, new)) in before.joints.iter().zip(&after.joints).enumerate() {
@@ -50,7 +50,7 @@ pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, S
             .map_err(|e| e.to_string())?;
         if old.joint_type.freedoms().len() + all.len() != new.joint_type.freedoms().len() {
             return Err(format!(
-                "puts a joint in the place of \"{}\" that has not all of its freedoms; choose another",
+                "replaces \"{}\" by a joint that lacks some of its freedoms; choose another",
                 old.id
             ));
         }
@@ -110,7 +110,7 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
         if e.node().copy {
             return Err(e.unsupported(
                 "it is a copy made by <replicate>",
-                "choose another joint (--at), or write the copies out",
+                "choose another joint, or write the copies out",
             ));
         }
         all.push((part, e, list));
@@ -128,8 +128,8 @@ type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportErr
 /// Where a file beside the description says that the joint is there.
 fn beside(origin: &Origin, part: &Part) -> ImportError {
     let element = format!("loop \"{}\"", part.id);
-    let why = "the file of loop closures says that it is there";
-    let remedy = "choose a joint of the description (--at)";
+    let why = "it is defined in the file of loop closures";
+    let remedy = "choose a joint of the description";
     let root = origin.element(origin.root);
     root.fail(None, unsupported(&element, why, remedy))
 }

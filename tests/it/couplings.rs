@@ -65,10 +65,10 @@ fn what_a_file_may_not_say() {
         turn ball | a b | 1 | no freedom that can be coupled
         turn ball | a b:rz | 1 | no freedom that can be coupled
         fixed turn | a b | 1 | no freedom that can be coupled
-        turn both | a b | 1 | several freedoms; say which is coupled: b:rz, b:tz
+        turn both | a b | 1 | several freedoms; name the coupled one: b:rz, b:tz
         turn both | a b:rx | 1 | known: b:rz, b:tz
         clamped turn | a b | 1 | not present in the same states
-        own turn | a b | 1 | does not keep the freedom that is coupled
+        own turn | a b | 1 | does not keep the coupled freedom
         "#,
     ) {
         let (first, second) = joints.split_once(' ').unwrap();

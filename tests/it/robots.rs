@@ -165,13 +165,13 @@ fn errors_name_the_element_and_the_line() {
         0.1 0.2 0 | 0.1 inf 0 | 3 finite numbers
         0.1 0.2 0 | ${x} 0 0 | xacro FILE
         name="q" type | type | <joint> has no attribute name
-        name="q" | name="p" | joint "p" is there twice
+        name="q" | name="p" | joint "p" is defined twice
         </robot> | | arm.urdf:8: & <robot> is not closed
         </joint>\n  <joint name="t" | </jnt>\n  <joint name="t" | jnt
         <robot | <robit | arm.urdf:
         <parent link="b"/> | <parent link="tip"/> | connects a link to itself
         <parent link="base"/> | | joint "p" has no <parent
-        <link name="tip"/> | <link name="tip"/><link name="loose"/> | link "loose" & --floating
+        <link name="tip"/> | <link name="tip"/><link name="loose"/> | link "loose" & floating
         "#,
     ) {
         let text = ARM.replace(from, to);

@@ -61,7 +61,7 @@ pub fn regular(path: &Path) -> io::Result<File> {
 fn too_long(limit: usize) -> io::Error {
     io::Error::new(
         ErrorKind::InvalidData,
-        format!("it has more than the {limit} bytes that are read"),
+        format!("it has more than the {limit} bytes allowed"),
     )
 }
 

@@ -125,7 +125,7 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
             let line = if table.axis.is_some() {
                 "the reference of the joint"
             } else {
-                "the first of the axes x, y, z that is across"
+                "the first of the axes x, y, z that is not along the axis"
             };
             (what, line, "reference")
         }

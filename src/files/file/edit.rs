@@ -104,7 +104,7 @@ fn put(table: &mut Table, path: &[String], to: &Value) -> Result<(), EditError> 
             let Some(inner) = inner.as_table_mut() else {
                 return Err(EditError::NoValue {
                     what: key.clone(),
-                    why: "it is no table of its own",
+                    why: "it is not a separate table",
                 });
             };
             put(inner, rest, to)

@@ -17,20 +17,20 @@ use thiserror::Error;
 )]
 pub enum ProblemKind {
     #[error(
-        "the file has {bytes} bytes, more than the {limit} allowed; split it or remove what is not a mechanism"
+        "the file has {bytes} bytes, more than the {limit} allowed; split it or remove everything that is not a mechanism"
     )]
     TooLarge { bytes: usize, limit: usize },
-    #[error("the file is empty; `ozols schema` describes what goes into it")]
+    #[error("the file is empty; `ozols schema` describes its contents")]
     Empty,
     #[error("the file is not UTF-8 text (byte {at}); save it as UTF-8")]
     NotUtf8 { at: usize },
     #[error("{message}")]
     Syntax { message: String },
-    #[error("{what} has the id \"{id}\" twice; ids must be unique")]
+    #[error("{what} id \"{id}\" is used twice; ids must be unique")]
     Duplicate { what: &'static str, id: String },
     #[error("an id must have 1 to 64 characters and no control characters, not {id:?}")]
     BadId { id: String },
-    #[error("{key} holds the control character {found}; remove it")]
+    #[error("{key} contains the control character {found}; remove it")]
     Control { key: String, found: String },
     #[error("unknown link \"{id}\"; known links: {known}")]
     UnknownLink { id: String, known: String },
@@ -45,7 +45,7 @@ pub enum ProblemKind {
     #[error("joint \"{joint}\" connects link \"{link}\" to itself; name two different links")]
     SelfLoop { joint: String, link: String },
     #[error(
-        "link \"{link}\" is not connected to the frame in state {state}; add the joint that holds it, or remove it"
+        "link \"{link}\" is not connected to the frame in state {state}; add the missing joint, or remove the link"
     )]
     Disconnected { link: String, state: String },
     #[error("link \"{link}\" has no joint in any state; connect it or remove it")]
@@ -67,29 +67,29 @@ pub enum ProblemKind {
         kind: String,
         what: &'static str,
     },
-    #[error("joint \"{joint}\" of type {kind} takes no {what}; remove it")]
+    #[error("joint \"{joint}\" of type {kind} must not have {what}; remove it")]
     Superfluous {
         joint: String,
         kind: String,
         what: &'static str,
     },
-    #[error("joint \"{joint}\" names the freedom {freedom} twice; name each once")]
+    #[error("joint \"{joint}\" names the freedom {freedom} twice; name it once")]
     RepeatedFreedom { joint: String, freedom: String },
     #[error("{message}")]
     BadNumber { message: String },
     #[error(
-        "coordinate {value} is out of range; lengths may be 1e-40 to 1e12 in size: choose another length_unit"
+        "coordinate {value} is out of range; lengths may be 1e-40 to 1e12 in size; choose another length_unit"
     )]
     OutOfRange { value: String },
     #[error(
-        "option \"{option}\" of joint \"{joint}\" does not contain the motion of the present {present} joint; every option must allow at least the present motion"
+        "option \"{option}\" of joint \"{joint}\" blocks a motion of the original {present} joint; every option must allow at least the original motion"
     )]
     LosesMotion {
         joint: String,
         option: String,
         present: String,
     },
-    #[error("joint \"{joint}\" has two options named \"{option}\"; give one of them another name")]
+    #[error("joint \"{joint}\" has two options named \"{option}\"; rename one of them")]
     RepeatedOption { joint: String, option: String },
     #[error("{what} {value} is out of range; give {allowed}")]
     BadQuantity {
@@ -102,7 +102,7 @@ pub enum ProblemKind {
         key: &'static str,
         other: &'static str,
     },
-    #[error("{key} cannot stand beside {other}; keep one of them")]
+    #[error("{key} and {other} exclude each other; keep one of them")]
     KeyExcludes {
         key: &'static str,
         other: &'static str,
@@ -114,24 +114,26 @@ pub enum ProblemKind {
         table: &'static str,
         example: &'static str,
     },
-    #[error("link \"{link}\" has part of its mass data only; add {what}")]
+    #[error("link \"{link}\" has incomplete mass data; add {what}")]
     LinkNeeds { link: String, what: &'static str },
-    #[error("no link has the role \"frame\"; mark the fixed link: role = \"frame\"")]
+    #[error("no link has the role \"frame\"; mark the fixed link with role = \"frame\"")]
     NoFrame,
-    #[error("link \"{second}\" is a second frame after \"{first}\"; keep one role = \"frame\"")]
+    #[error(
+        "link \"{second}\" is a second frame after \"{first}\"; keep only one role = \"frame\""
+    )]
     SecondFrame { first: String, second: String },
     #[error(
-        "the joints of this contour do not form one closed walk; list them in order round the contour"
+        "the joints of this contour do not form one closed loop; list them in order around the loop"
     )]
     OpenContour,
     #[error(
-        "joint \"{joint}\" is coupled with itself; name two joints (a turn and a slide that go together are a helical joint)"
+        "joint \"{joint}\" is coupled with itself; name two joints (for a rotation and a translation that are coupled use a helical joint)"
     )]
     CouplesItself { joint: String },
     #[error("joints \"{first}\" and \"{second}\" are coupled twice; keep one of the couplings")]
     CoupledTwice { first: String, second: String },
     #[error(
-        "joints \"{first}\" and \"{second}\" are coupled but not present in the same states; give both the same state"
+        "joints \"{first}\" and \"{second}\" are coupled but are not present in the same states; give both the same state"
     )]
     CouplesStates { first: String, second: String },
     #[error(
@@ -139,29 +141,29 @@ pub enum ProblemKind {
     )]
     CouplingInexact { first: String, second: String },
     #[error(
-        "the ratio of a coupling is zero, which would hold the second joint still; give another ratio, or make that joint fixed"
+        "the ratio of a coupling is zero, which would lock the second joint; give another ratio, or make that joint fixed"
     )]
     ZeroRatio,
     #[error(
-        "joint \"{joint}\" of type {kind} has no freedom that can be coupled; couple turns about one axis and slides (a ball's turns have no axis of their own)"
+        "joint \"{joint}\" of type {kind} has no freedom that can be coupled; couple translations and rotations about one axis (a spherical joint has no single axis)"
     )]
     NothingToCouple { joint: String, kind: String },
-    #[error("joint \"{joint}\" has several freedoms; say which is coupled: {known}")]
+    #[error("joint \"{joint}\" has several freedoms; name the coupled one: {known}")]
     WhichFreedom { joint: String, known: String },
     #[error(
-        "option \"{option}\" of joint \"{joint}\" does not keep the freedom that is coupled, about the same axis; leave it out"
+        "option \"{option}\" of joint \"{joint}\" does not keep the coupled freedom about the same axis; remove it"
     )]
     LosesCoupling { joint: String, option: String },
-    #[error("joint \"{joint}\" has more than one image under {under}; name each joint once there")]
+    #[error("joint \"{joint}\" has more than one image under {under}; name each joint once")]
     RepeatedImage { joint: String, under: &'static str },
     #[error(
         "a group of {count} joints under turn: write pairs for half a turn, or groups of three for a third, all of one kind"
     )]
     TurnGroup { count: usize },
-    #[error("mirror and turn are both given; keep one of them")]
+    #[error("mirror and turn exclude each other; keep one of them")]
     TurnAndMirror,
     #[error(
-        "joints \"{first}\" and \"{second}\" are no mirror images: in the plane that suits most pairs the image of \"{first}\" is {off} from \"{second}\"; correct their points and axes, or remove the pair"
+        "joints \"{first}\" and \"{second}\" are not mirror images: in the plane that fits most pairs the image of \"{first}\" is {off} from \"{second}\"; correct their points and axes, or remove the pair"
     )]
     NoMirrorImage {
         first: String,
@@ -171,7 +173,7 @@ pub enum ProblemKind {
     #[error("cost {value} must be a finite number from 0 to 1e6")]
     BadCost { value: String },
     #[error(
-        "the closure matrix of state {state} would have {rows} rows and {columns} columns, more than {limit} entries; leave out what does not matter, or make independent parts files of their own"
+        "the closure matrix of state {state} would have {rows} rows and {columns} columns, more than {limit} entries; remove irrelevant parts, or move independent parts to separate files"
     )]
     TooEntangled {
         state: String,
@@ -180,11 +182,11 @@ pub enum ProblemKind {
         limit: usize,
     },
     #[error(
-        "no parameter can be named {name:?}; a name is a letter, and letters, digits or _ after it, but not pi, deg, sqrt, cos, sin, tan or cot"
+        "a parameter cannot be named {name:?}; use a letter followed by letters, digits or _, but not pi, deg, sqrt, cos, sin, tan or cot"
     )]
     BadParameter { name: String },
     #[error(
-        "nothing depends on parameter \"{name}\"; use it in an expression in quotes, such as \"2*{name}\", or remove it"
+        "parameter \"{name}\" is never used; use it in an expression in quotes, such as \"2*{name}\", or remove it"
     )]
     UnusedParameter { name: String },
     #[error("the file has {count} {what}, more than the {limit} allowed")]

@@ -125,7 +125,7 @@ fn from_toml(text: &str) -> Result<MechanismFile, Syntax> {
 fn with_remedy(message: String) -> String {
     // The deserializer's own words speak of its types.
     if message.contains("as i128") {
-        return "this whole number is beyond 64 bits; choose another length_unit, or write it as a decimal".to_owned();
+        return "this whole number is larger than 64 bits; choose another length_unit, or write it as a decimal".to_owned();
     }
     if message == "floating-point number overflowed" {
         return format!("{message}; choose another length_unit");
@@ -144,7 +144,7 @@ fn with_remedy(message: String) -> String {
     }
     let missing = message.strip_prefix("missing field `");
     match missing.and_then(|rest| rest.strip_suffix('`')) {
-        Some("id") => format!("{message}; give it a name of its own"),
+        Some("id") => format!("{message}; give it a unique name"),
         Some(_) => format!("{message}; add it (`ozols new` writes a file with all fields)"),
         None => message,
     }

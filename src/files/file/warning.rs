@@ -17,20 +17,20 @@ use thiserror::Error;
     reason = "the wording of each variant says what its fields are"
 )]
 pub enum WarningKind {
-    #[error("the name is empty; give one, since every answer begins with it")]
+    #[error("the name is empty; give one, because every answer begins with it")]
     NoName,
     #[error(
-        "the id \"{id}\" has characters that turn the order of letters round; answers spell them out, and without them it reads as it is written"
+        "the id \"{id}\" has characters that reverse the order of letters; answers spell them out; remove them to show the id as it is read"
     )]
     TurnsLetters { id: String },
     #[error(
-        "the joints are {across} m across, as lengths are metres where no unit stands; add length_unit = \"mm\" if they are millimetres"
+        "the mechanism is {across} m across, because lengths without a unit are in metres; add length_unit = \"mm\" if they are millimetres"
     )]
     ForgottenUnit { across: String },
-    #[error("the joints are {across} m across; see whether length_unit = \"{unit}\" is meant")]
+    #[error("the mechanism is {across} m across; check that length_unit = \"{unit}\" is correct")]
     OddSize { across: String, unit: &'static str },
     #[error(
-        "joints \"{first}\" and \"{second}\" are {apart} {unit} apart in a mechanism {across} {unit} across; give both the same point if they are meant to meet"
+        "joints \"{first}\" and \"{second}\" are {apart} {unit} apart in a mechanism of {across} {unit}; give both the same point if they should coincide"
     )]
     NearlyOnePlace {
         first: String,
@@ -40,11 +40,11 @@ pub enum WarningKind {
         unit: &'static str,
     },
     #[error(
-        "coordinates look measured or rounded: {what}; write exact ones in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\", where they are known (else a [tolerance] table says how far they may be off)"
+        "coordinates look measured or rounded: {what}; if the exact values are known, write them in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\"; otherwise give their uncertainty in a [tolerance] table"
     )]
     Measured { what: String },
     #[error(
-        "state {state}: {meant} is meant, and {written} is what the rounded digits say as written; write roots or expressions such as \"sqrt(3)/2\", or more digits{understood}"
+        "state {state}: the idealised geometry gives {meant}, and the rounded digits as written give {written}; write roots or expressions such as \"sqrt(3)/2\", or more digits{understood}"
     )]
     Meant {
         understood: String,
@@ -55,7 +55,7 @@ pub enum WarningKind {
     #[error("state {state}: {what}")]
     Undecided { state: String, what: String },
     #[error(
-        "the second axes of {joints} are left to the default, which goes by the file's x, y and z: the same mechanism turned in space has others; write them out, such as reference = {reference} at {first}"
+        "the second axes of {joints} use the default, which depends on the file's x, y and z; the same mechanism rotated in space has other axes; write them out, such as reference = {reference} at {first}"
     )]
     DefaultReference {
         joints: String,
@@ -63,11 +63,11 @@ pub enum WarningKind {
         reference: String,
     },
     #[error(
-        "nearly special: {what}; make them so exactly if they are meant to be, or say how far they may be off in a [tolerance] table"
+        "nearly special: {what}; make them exact if this is intended, or give their uncertainty in a [tolerance] table"
     )]
     NearlySpecial { what: String },
     #[error(
-        "the ratio {ratio} of {coupling} is a decimal, known to within {half}; write ratio = \"{fraction}\" if that is meant, or another fraction"
+        "the ratio {ratio} of {coupling} is a decimal, known to within {half}; write ratio = \"{fraction}\" if that is intended, or another fraction"
     )]
     DoubtedRatio {
         coupling: String,
@@ -76,7 +76,7 @@ pub enum WarningKind {
         fraction: String,
     },
     #[error(
-        "the pitch {pitch} of joint \"{joint}\" is a decimal, all but that of a simple lead; write lead = \"{lead}\" in its place if that is meant"
+        "the pitch {pitch} of joint \"{joint}\" is a decimal close to that of a simple lead; write lead = \"{lead}\" instead if that is intended"
     )]
     DoubtedPitch {
         joint: String,
@@ -84,41 +84,41 @@ pub enum WarningKind {
         lead: String,
     },
     #[error(
-        "no contour is closed in any state; nothing can be redundant without one: add the joints that close it"
+        "no loop is closed in any state, so nothing can be redundant; add the joints that close a loop"
     )]
     NoContour,
     #[error(
-        "no contour passes through {joints}; freedoms there add to the mobility, and no constraint there is redundant: add the joint that closes one if it is missing"
+        "no loop passes through {joints}; their freedoms add to the mobility, and none of their constraints is redundant; add the joint that closes a loop if it is missing"
     )]
     OpenChain { joints: String },
     #[error(
-        "object \"{link}\" has a single joint in state {state}; add the other contact that clamps it"
+        "clamped part \"{link}\" has a single joint in state {state}; add the other contact that clamps it"
     )]
     Dangling { link: String, state: String },
     #[error(
-        "object \"{link}\" is there in the free state; give its joints a state, such as state = \"clamped\""
+        "clamped part \"{link}\" is present in the free state; give its joints a state, such as state = \"clamped\""
     )]
     ObjectAlwaysThere { link: String },
     #[error(
-        "joint \"{joint}\" is fixed in every state; make one link of \"{first}\" and \"{second}\", or give it a state"
+        "joint \"{joint}\" is fixed in every state; merge the links \"{first}\" and \"{second}\", or give the joint a state"
     )]
     AlwaysFixed {
         joint: String,
         first: String,
         second: String,
     },
-    #[error("joints \"{first}\" and \"{second}\" are the same joint twice; remove one")]
+    #[error("joints \"{first}\" and \"{second}\" are identical; remove one")]
     Twin { first: String, second: String },
     #[error(
-        "this contour follows from the others of its state, and is passed over; remove it or name another"
+        "this contour follows from the others of its state and is ignored; remove it or give another"
     )]
     DependentContour,
     #[error(
-        "no joint can take the option \"{option}\", as it does not allow their present motion; remove it"
+        "option \"{option}\" is never used, because it would block the motion of every joint that it could replace; remove it"
     )]
     UselessOption { option: String },
     #[error(
-        "the {what} of option \"{option}\" is taken along {along} at {joints}, as nobody states it; write a table with `{key}` if another is meant: {{ type = \"{option}\", {key} = [...] }}"
+        "the {what} of option \"{option}\" is not given and is taken along {along} at {joints}; write a table with `{key}` if another is intended: {{ type = \"{option}\", {key} = [...] }}"
     )]
     Guessed {
         option: String,
@@ -136,21 +136,21 @@ pub enum WarningKind {
     )]
     UnloadingOfNothing { joint: String },
     #[error(
-        "joint \"{joint}\" forbids \"{option}\", which is not an option of that joint; remove it, or correct the word"
+        "joint \"{joint}\" forbids \"{option}\", which is not an option of that joint; remove it, or correct the name"
     )]
     ForbidsNothing { joint: String, option: String },
     #[error(
-        "joint \"{joint}\" has the freedoms {freedoms}, and the file does not say which one is driven; write drive = \"{taken}\" if it is the one that redesigns keep today, or name another"
+        "joint \"{joint}\" has the freedoms {freedoms}, and the file does not state which one is driven; write drive = \"{taken}\" if it is the one that redesigns keep now, or name another"
     )]
     DriveUnnamed {
         joint: String,
         freedoms: String,
         taken: &'static str,
     },
-    #[error("no joint is a drive, so {what} has nothing to move; mark one: drive = true")]
+    #[error("no joint is a drive, so {what} has nothing to move; mark one with drive = true")]
     NoDrive { what: &'static str },
     #[error(
-        "no link has the role \"output\", so that each counts as one, and no motion as idle; mark the working link: role = \"output\""
+        "no link has the role \"output\", so every link counts as an output and no motion counts as idle; mark the working link with role = \"output\""
     )]
     NoOutput,
     #[error("no link has a mass, so gravity has no effect; add mass and centre to the links")]
@@ -160,11 +160,11 @@ pub enum WarningKind {
     )]
     MassAlone,
     #[error(
-        "the ranking asks for {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
+        "the ranking uses {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
     )]
     RankingUnloaded { term: &'static str },
     #[error(
-        "the file says {key} = {stated} in state {state}, and the analysis finds {found}; correct the figure, or delete [[expected]] where the mechanism is no longer the published one"
+        "the file states {key} = {stated} in state {state}, but the analysis finds {found}; correct the figure, or delete [[expected]] if the mechanism differs from the published one"
     )]
     Stale {
         key: &'static str,

@@ -35,9 +35,7 @@ pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut 
         (joints == [a, b] && c.ratio == ratio) || (joints == [b, a] && c.ratio * ratio == 1.0)
     };
     if robot.couplings.iter().any(same) {
-        robot
-            .report
-            .drop("coupling that is stated twice", Some(joints[1]));
+        robot.report.drop("duplicate coupling", Some(joints[1]));
         return;
     }
     robot.report.map("coupling of a plugin or controller");
@@ -83,7 +81,7 @@ pub(crate) fn plugin(
 fn weld(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
-        let what = format!("it welds {a} to {b}, which are not both in the file; left out");
+        let what = format!("it welds {a} to {b}, which are not both in the file; omitted");
         return robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
     };
     if a == b {
@@ -121,7 +119,7 @@ pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
         names => format!(" of {names}"),
     };
     let what = format!(
-        "it is not read, though it may close a loop or couple joints{of}; left out: write what it does as a joint, a <mimic> or a file of --loops"
+        "it is not read, though it may close a loop or couple joints{of}; omitted; write it as a joint, a <mimic> or a file of loop closures"
     );
     robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
 }

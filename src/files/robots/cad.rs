@@ -30,7 +30,7 @@ const OPTIONS: [JointType; 3] = [
 ];
 
 /// What is said of limits, which no reader gives.
-pub(crate) const NO_LIMITS: &str = "limits are left out: poses beyond them are looked at, too";
+pub(crate) const NO_LIMITS: &str = "limits are omitted; poses beyond them are analysed, too";
 
 /// A joint as read.
 #[derive(Debug, Clone)]
@@ -117,21 +117,23 @@ impl Assembly {
         for ((name, _), _) in loose {
             robot
                 .report
-                .drop("part that nothing ties to the ground", Some(name));
+                .drop("part that is not connected to the ground", Some(name));
         }
         for c in self
             .connections
             .iter()
             .filter(|c| !tied[c.parts[0]] || !tied[c.parts[1]])
         {
-            robot.report.drop("joint of parts that float", Some(&c.id));
+            robot
+                .report
+                .drop("joint between floating parts", Some(&c.id));
         }
         tied
     }
 
     fn tie(&self, c: &Connection, links: [usize; 2], options: &Options, robot: &mut Robot) {
         if links[0] == links[1] {
-            let what = "both ends are on one part, which holds all of it; left out";
+            let what = "both ends are on one part, so it has no effect; omitted";
             robot.report.approximate(&c.label(), what);
             return;
         }
@@ -160,7 +162,7 @@ impl Assembly {
                 robot.report.moved(what);
             } else {
                 let what = format!(
-                    "its two frames are {apart} apart; the figures are those of the file's pose, the joint where its first frame is (--assemble closes joints)"
+                    "its two frames are {apart} apart; the figures use the pose of the file, and the joint lies at its first frame (the option `assemble` closes joints)"
                 );
                 robot.report.assume(&element, what);
                 robot.here_only = true;
@@ -168,7 +170,7 @@ impl Assembly {
         }
         if m.here_only {
             let what = format!(
-                "{}: it has the freedoms that it has at this pose, and nothing is said of others",
+                "{}: its freedoms are those of this pose; in other poses they may differ",
                 c.holds.word()
             );
             robot.report.approximate(&element, what);
@@ -240,7 +242,7 @@ fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
         return;
     }
     let what = format!(
-        "{}: its parts do not both hang on one part by a hinge or a slider; here it holds what it holds at this pose, and nothing is said of others",
+        "{}: its parts are not both connected to one part by a hinge or a slider; its constraints are those of this pose, and may differ in others",
         c.holds.word()
     );
     robot.report.approximate(&element, what);
@@ -251,7 +253,7 @@ fn couple(c: &Connection, links: [usize; 2], robot: &mut Robot) {
 }
 
 fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
-    let what = format!("{} is left out: {why}", c.holds.word());
+    let what = format!("{} is omitted: {why}", c.holds.word());
     let element = c.label();
     robot.report.leave_out_joint(&element, c.holds.rows(), what);
 }

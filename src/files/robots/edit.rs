@@ -129,7 +129,7 @@ impl<'a> Edits<'a> {
         // The root's file is the first that was read.
         if let Some((source, span, _)) = self.list.iter().find(|(s, ..)| *s != 0) {
             let source = &sources[*source];
-            let message = "the change is in a file that is included; put the files together, for example by saving the model from MuJoCo as XML, or change joints of the main file (--at)";
+            let message = "the change is in an included file; merge the files, for example by saving the model from MuJoCo as XML, or change joints of the main file only";
             return Err(syntax_problem(message).in_file(
                 &source.name,
                 &source.text,
@@ -141,7 +141,7 @@ impl<'a> Edits<'a> {
         let (text, mut out, mut at) = (&sources[0].text, String::new(), 0);
         for (_, span, by) in &self.list {
             if span.start < at {
-                let message = "two changes meet in one place; make them one at a time (--at)";
+                let message = "two changes affect the same place; make them one at a time";
                 return Err(syntax_problem(message).in_file(
                     &sources[0].name,
                     text,

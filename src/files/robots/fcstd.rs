@@ -90,9 +90,10 @@ fn linked(
         let archive = Archive::of(&file, &bytes);
         let member = archive.map(|a| a.member(DOCUMENT)).transpose()?.flatten();
         let Some(member) = member else {
-            robot
-                .report
-                .drop("linked document that is none of FreeCAD's", Some(&file));
+            robot.report.drop(
+                "linked document that is not a FreeCAD document",
+                Some(&file),
+            );
             continue;
         };
         let name = format!("{file}/{DOCUMENT}");
@@ -169,7 +170,7 @@ fn chosen<'a>(
     };
     for other in all.iter().filter(|o| o.name != most.name) {
         let what = format!(
-            "another assembly of the document, left alone (--assembly reads it; this is of \"{}\")",
+            "another assembly of the document, which is not read; this is assembly \"{}\" (the option `assembly` selects another)",
             most.label()
         );
         robot.report.drop(&what, Some(other.label()));
@@ -214,7 +215,7 @@ impl<'a> Assembling<'a, '_> {
             };
             let element = format!("joint \"{id}\"");
             let Some(found) = held(word, joint, ends, &slides, self.shapes)? else {
-                let what = format!("left out: it is of the type {word}, which is not known");
+                let what = format!("omitted: its type {word} is not known");
                 robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 continue;
             };
@@ -297,7 +298,7 @@ impl<'a> Assembling<'a, '_> {
             match (end("Reference1")?, end("Reference2")?) {
                 (Ok(a), Ok(b)) => out.push((*joint, word, [a, b])),
                 (Err(why), _) | (_, Err(why)) => {
-                    let what = format!("left out, as FreeCAD does: {why}");
+                    let what = format!("omitted, as in FreeCAD: {why}");
                     let element = format!("joint \"{}\"", joint.label());
                     robot.report.leave_out_joint(&element, UNKNOWN_ROWS, what);
                 }
@@ -317,9 +318,8 @@ impl<'a> Assembling<'a, '_> {
         if let (false, Some(part)) = (ends.any(still), first) {
             grounded.insert(part);
             let label = self.documents.main.get(part).map_or(part, Object::label);
-            let what = format!(
-                "nothing that joints hold is grounded: {label} is taken as what stands still"
-            );
+            let what =
+                format!("nothing that joints hold is grounded; {label} is taken as the ground");
             robot.report.moved(what);
         }
         grounded

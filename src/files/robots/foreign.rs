@@ -10,20 +10,20 @@ type Foreign = (&'static str, &'static str, &'static [u8], &'static str);
 const GEOMETRY: &str = "it has shapes and no joints; join the parts in FreeCAD's Assembly workbench and give the .FCStd, or write a mechanism file (`ozols new`)";
 const CAD: &str = "export a URDF with the program's exporter, or join the parts in FreeCAD's Assembly workbench and give the .FCStd";
 const SIMULATOR: &str = "export the model as URDF, SDF or MJCF from the program that wrote it";
-const TEMPLATE: &str = "expand it first, and give the URDF, SDF or MJCF that comes out";
+const TEMPLATE: &str = "expand it first, and give the resulting URDF, SDF or MJCF file";
 
 static FOREIGN: [Foreign; 38] = [
     (
         "YAML",
         "yaml yml",
         b"",
-        "give the robot description, and this file with --loops",
+        "give the robot description, and this file as its loop closures",
     ),
     (
         "compressed",
         "zip gz 7z",
         b"",
-        "unpack it and give the description that is in it",
+        "unpack it and give the description inside",
     ),
     ("STEP", "step stp stpz p21", b"ISO-10303-21", GEOMETRY),
     ("IGES", "iges igs", b"", GEOMETRY),

@@ -57,7 +57,7 @@ static FORMATS: [Format; 9] = [
     Format {
         word: "toml",
         name: "TOML",
-        about: "The mechanism file, every joint with its own options",
+        about: "The mechanism file, with the options of every joint",
         endings: &[],
         read: None,
         write: Some(FormatWriter::Mechanism(|m| {

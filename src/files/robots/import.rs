@@ -72,8 +72,7 @@ fn root(
     };
     let name = format!("{name}/{DOCUMENT}");
     let Some(found) = archive.member(DOCUMENT)? else {
-        let message =
-            format!("there is no {DOCUMENT} in the archive; it is not a FreeCAD document");
+        let message = format!("the archive has no {DOCUMENT}; it is not a FreeCAD document");
         return Err(syntax_problem(message).in_file(&name, "", None));
     };
     document.read(&name, xml::utf8(&name, &found)?)
@@ -195,7 +194,7 @@ fn expanded(document: &Document) -> Result<(), ImportError> {
         None => Ok(()),
         Some(e) => Err(e.unsupported(
             "the file is xacro, a template whose macros are not expanded",
-            "run `xacro FILE > robot.urdf` and give what it writes",
+            "run `xacro FILE > robot.urdf` and give the result",
         )),
     }
 }

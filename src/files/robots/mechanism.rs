@@ -83,9 +83,9 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     }
     if apart && !options.floating {
         let what = if parts == 0 {
-            "nothing holds the model to the world: it floats with 6 freedoms (--frame LINK holds a link)"
+            "nothing fixes the model to the world, so it floats with 6 freedoms; name the fixed link as `frame`"
         } else {
-            "parts that no joint holds float in the world, each by itself"
+            "parts without joints float freely in the world"
         };
         robot.report.moved(what.to_owned());
     }
@@ -114,7 +114,7 @@ pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
         .join(", ");
     let root = &robot.links[tree.roots[0]];
     Err(syntax_problem(format!(
-        "no joint connects {loose} with {root}; add one, or use --floating to let every such part float"
+        "no joint connects {loose} with {root}; add one, or set `floating` to let every such part float"
     )))
 }
 
@@ -139,7 +139,8 @@ pub(crate) fn close_loops(
     }
     if options.open {
         let widest = widest(robot, tree, size);
-        let note = format!("loops open, the widest {widest}; the figures are those of that pose");
+        let note =
+            format!("loops are open, the widest by {widest}; the figures are those of that pose");
         robot.report.moved(note);
         return Ok(());
     }
@@ -148,12 +149,12 @@ pub(crate) fn close_loops(
     if left > ROUNDED * size {
         let widest = widest(robot, tree, size);
         return Err(syntax_problem(format!(
-            "the loops do not close, the widest is {widest}; give a pose nearby with --pose joint=value, or take it as it is with --open"
+            "the loops do not close, the widest is {widest}; give a nearby `pose`, or set `open` to leave them open"
         )));
     }
     if left > CLOSED * size {
         let what = format!(
-            "open by {left:.1e} {unit} wherever the joints are, as rounded coordinates leave it; taken as closed"
+            "open by {left:.1e} {unit} in every pose, within the rounding of the coordinates; treated as closed"
         );
         robot.report.approximate(&loops, what);
     }
@@ -297,7 +298,7 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
         }
     }
     for id in within {
-        let what = "both ends are on one rigid body; left out, with all its rows redundant";
+        let what = "both ends are on one rigid body; omitted, with all its rows redundant";
         robot.report.approximate(&format!("joint \"{id}\""), what);
     }
     if joints.is_empty() {
@@ -314,7 +315,7 @@ fn within_limits(links: usize, joints: usize) -> Result<(), ProblemKind> {
     match all.iter().find(|(_, count, limit)| count > limit) {
         None => Ok(()),
         Some((what, count, limit)) => Err(syntax_problem(format!(
-            "after merging what is rigidly joined there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
+            "after merging rigidly joined links there are {count} {what}, more than the {limit} of a mechanism file; import a part of the robot"
         ))),
     }
 }

@@ -93,7 +93,7 @@ pub(crate) fn read(
                 }
             }
             "deformable" => {
-                let what = "deformable bodies are no links; left out";
+                let what = "deformable bodies are not links; omitted";
                 robot.report.approximate(&section.label(), what);
             }
             other if section.is_one_of(SECTIONS) => robot.report.drop(other, None),
@@ -157,14 +157,14 @@ fn bodies<'a>(start: Waiting<'a>, context: &mut Context<'a>, robot: &mut Robot) 
                     return Err(e.unsupported("the world cannot move", "put the joint into a body"));
                 }
                 "flexcomp" | "attach" => {
-                    let what = "what it makes when the model is compiled is left out; save the compiled model from MuJoCo as XML to have that, too";
+                    let what = "its result when the model is compiled is omitted; save the compiled model from MuJoCo as XML to include it";
                     match e.name() {
                         "attach" => robot.report.leave_out_joint(&e.label(), 6, what),
                         _ => robot.report.approximate(&e.label(), what),
                     }
                 }
                 "composite" => {
-                    let remedy = "save the compiled model from MuJoCo as XML and import that";
+                    let remedy = "save the compiled model from MuJoCo as XML and import that file";
                     return Err(e.unsupported("it makes bodies when the model is compiled", remedy));
                 }
                 other => {

@@ -15,7 +15,7 @@ pub(crate) fn syntax_problem(message: impl Into<String>) -> ProblemKind {
 
 pub(crate) fn too_large(bytes: usize, limit: usize) -> ProblemKind {
     syntax_problem(format!(
-        "the file has {bytes} bytes, more than the {limit} allowed; remove what is not kinematics"
+        "the file has {bytes} bytes, more than the {limit} allowed; remove everything that is not kinematics"
     ))
 }
 
@@ -27,7 +27,7 @@ pub(crate) fn too_deep(limit: usize) -> ProblemKind {
 
 pub(crate) fn too_many(what: &str, limit: usize) -> ProblemKind {
     syntax_problem(format!(
-        "more than {limit} {what}; remove what is not kinematics"
+        "more than {limit} {what}; remove everything that is not kinematics"
     ))
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn unknown_word(element: &str, what: &str, word: &str, known: &str) -
 /// Returns the problem that an element names something unknown. `known` lists the known names.
 pub(crate) fn unknown_name(element: &str, what: &str, name: &str, known: &str) -> ProblemKind {
     syntax_problem(format!(
-        "{element} names the {what} \"{name}\", which there is not; {known}"
+        "{element} names the {what} \"{name}\", which does not exist; {known}"
     ))
 }
 
@@ -72,7 +72,7 @@ pub(crate) fn known(what: &str, names: impl IntoIterator<Item: AsRef<str>>) -> S
 #[non_exhaustive]
 pub enum ExportError {
     /// The format has no such joint.
-    #[error("joint \"{joint}\" of type {kind} cannot be said in {format}; {remedy}")]
+    #[error("{format} cannot represent joint \"{joint}\" of type {kind}; {remedy}")]
     Joint {
         /// The joint.
         joint: String,
@@ -85,7 +85,7 @@ pub enum ExportError {
     },
     /// The format is written only of files that were read in it.
     #[error(
-        "a mechanism alone cannot be written for {format}: give a document of it, whose joints get other types"
+        "{format} cannot be written from a mechanism only; give a document in this format, whose joints get other types"
     )]
     Own {
         /// The format.

@@ -218,7 +218,7 @@ fn model<'a>(
                 named_place(e, scope, &own, shared, scene)?;
             }
             "drake:joint" => {
-                let what = "a joint of Drake's own, which is not read: what it holds is loose here";
+                let what = "a joint type of Drake that is not read; its constraints are omitted";
                 robot.report.leave_out_joint(&e.label(), 6, what);
             }
             "drake:weld_constraint" | "drake:ball_constraint" => {
@@ -277,7 +277,7 @@ fn link<'a>(
     if name == "world" {
         // Joints that name it mean the world.
         if raw != RigidMotion::IDENTITY {
-            let why = "a link that is the world is not in its place";
+            let why = "a link named world is not in its place";
             return Err(e.unsupported(why, "remove its pose, or give it another name"));
         }
         robot.report.map("link that is the world");

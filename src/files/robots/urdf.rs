@@ -111,7 +111,7 @@ fn transmission(e: Element<'_>, robot: &mut Robot) {
     let actuators = e.named("actuator").count().max(1);
     for _ in actuators..joints {
         let what = format!(
-            "it moves {joints} joints by {actuators}; the coupling (1 row) is left out: write it as a <mimic>"
+            "it moves {joints} joints by {actuators}; the coupling (1 row) is omitted; write it as a <mimic>"
         );
         robot.report.leave_out_coupling(&e.label(), what);
     }

@@ -170,7 +170,7 @@ impl Report {
         if more > 0 {
             kinds.push(format!("{more} more kinds"));
         }
-        (!kinds.is_empty()).then(|| format!("Left out of it: {}.", kinds.join(", ")))
+        (!kinds.is_empty()).then(|| format!("Omitted: {}.", kinds.join(", ")))
     }
 
     /// The report for people.
@@ -212,7 +212,7 @@ impl Report {
         let hint = if *asked {
             ""
         } else {
-            " (end effectors, ends of chains, a floating base; --working-link to choose)"
+            " (end effectors, ends of chains, a floating base; the option `working_link` chooses others)"
         };
         let shown = first_of(names, 8);
         line(&mut out, "output", &format!("{shown}{hint}"));
@@ -233,7 +233,7 @@ impl Report {
             let what = format!(
                 "{n} coupling {rows} between joint values: W is up to {n} too high without {them}, σ may be too low"
             );
-            line(&mut out, "left out", &what);
+            line(&mut out, "omitted", &what);
         }
         if self.constraint_rows > 0 {
             let n = self.constraint_rows;
@@ -241,7 +241,7 @@ impl Report {
                 "{} of joints: W is up to {n} too high, σ may be too low",
                 plural(n, "row")
             );
-            line(&mut out, "left out", &what);
+            line(&mut out, "omitted", &what);
         }
         for n in &self.approximated {
             let what = format!("{}: {}", n.element, n.what);

@@ -176,7 +176,10 @@ fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));
     found.next().map_or(Ok(()), |(at, c)| {
-        let message = format!("the control character {} is there", c.escape_unicode());
+        let message = format!(
+            "the control character {} is not allowed",
+            c.escape_unicode()
+        );
         Err((xml_problem(message), at))
     })
 }
@@ -288,7 +291,7 @@ fn node(
             return Err((problem, span.start));
         }
         if attributes.iter().any(|a| a.name == name) {
-            let message = format!("the attribute {name} is there twice");
+            let message = format!("the attribute {name} is given twice");
             return Err((xml_problem(message), span.start));
         }
         // The value is borrowed from the text where the reader could.

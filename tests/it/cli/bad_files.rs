@@ -28,8 +28,8 @@ fn what_is_wrong_in_a_file_is_told_with_its_line() {
     for [from, to, line, said] in cases::<4>(
         r#"
         ["2", "3"] | ["2", "zz"] | zz | unknown link "zz" & known links: 0, 1, 2, 3
-        id = "2-3" | id = "1-2"  # again | # again | joint has the id "1-2" twice
-        id = "3" | id = "2"  # again | # again | link has the id "2" twice
+        id = "2-3" | id = "1-2"  # again | # again | joint id "1-2" is used twice
+        id = "3" | id = "2"  # again | # again | link id "2" is used twice
         id = "2-3" | id = "" | id = "" | 1 to 64 characters
         ["2", "3"] | ["2", "2"] | ["2", "2"] | "2-3" connects link "2" to itself
         [[contour]] | [[link]]\nid = "p"\n[[link]]\nid = "q"\n[[joint]]\nid = "p-q"\nlinks = ["p", "q"]\ntype = "revolute"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n[[contour]] | id = "p" | link "p" is not connected to the frame & "q"
@@ -40,10 +40,10 @@ fn what_is_wrong_in_a_file_is_told_with_its_line() {
         "mm" | "furlong" | furlong | unknown length unit "furlong" & m, mm, cm, um, in
         role = "output" | role = "tool" | "tool" | unknown role "tool" & frame, output, object
         length_unit | mode = "flat"\nlength_unit | "flat" | unknown mode "flat" & spatial, planar
-        drive = true | options = ["revolute", "prismatic"] | "prismatic" | option "prismatic" of joint "0-1" & present revolute
+        drive = true | options = ["revolute", "prismatic"] | "prismatic" | option "prismatic" of joint "0-1" & original revolute
         role = "frame" | | [[link]] | no link has the role "frame"
         role = "output" | role = "frame" # 2 | # 2 | link "3" is a second frame after "0"
-        "0-1", "1-2", "2-3", "3-0" | "0-1", "1-2", "2-3" | joints = [ | closed walk
+        "0-1", "1-2", "2-3", "3-0" | "0-1", "1-2", "2-3" | joints = [ | closed loop
         "2-3", "3-0" | "2-3", "9-9" | 9-9 | unknown joint "9-9" & 0-1, 1-2, 2-3, 3-0
         id = "2-3" | id = = "2-3" | = = |
         drive = true | driven = true | driven | driven
@@ -79,13 +79,13 @@ fn error_missing_fields() {
         "bad.toml",
         "name = \"x\"\n[[link]]\nid = \"0\"\n[[link]] # nameless\nrole = \"frame\"\n",
         "# nameless",
-        &["missing field `id`", "give it a name of its own"],
+        &["missing field `id`", "give it a unique name"],
     );
     bad_file(
         "bad.json",
         "{\"name\": \"x\",\n\"link\": [{\"role\": \"frame\"}]}",
         "link",
-        &["missing field `id`", "give it a name of its own"],
+        &["missing field `id`", "give it a unique name"],
     );
 }
 
@@ -95,7 +95,7 @@ fn error_more_than_one_image() {
         let twice = format!("{way} = [[\"0-1\", \"1-2\"], [\"1-2\", \"2-3\"]] # twice");
         let text = with("[search]", &format!("[search]\n{twice}"));
         let said = format!("joint \"1-2\" has more than one image under {way}");
-        let parts = [said.as_str(), "name each joint once there"];
+        let parts = [said.as_str(), "name each joint once"];
         bad_file("bad.toml", &text, "# twice", &parts);
     }
 }
@@ -105,9 +105,9 @@ fn error_parameters() {
     let text = with("[80, 90, 0]", "[\"width\", 90, 0]");
     let number = "expected a number, or an expression in quotes";
     for (parameters, line_with, part) in [
-        ("width = 80\npi = 3", "pi = 3", "can be named \"pi\""),
-        ("width = 80\n\"2a\" = 3", "2a", "can be named \"2a\""),
-        ("width = 80\nidle = 3", "idle = 3", "nothing depends on"),
+        ("width = 80\npi = 3", "pi = 3", "cannot be named \"pi\""),
+        ("width = 80\n\"2a\" = 3", "2a", "cannot be named \"2a\""),
+        ("width = 80\nidle = 3", "idle = 3", "is never used"),
         ("width = true", "width = ", number),
         ("width = { range = [70, 90] }", "width = ", number),
         ("width = \"1/0\"", "width = ", "division by zero"),

@@ -20,7 +20,7 @@ fn control_characters_are_refused() {
         ("O. G. Ozols", "O.\\u009b Ozols", "sources"),
     ] {
         fs::write(&file, changed(&shown, from, to)).unwrap();
-        let words = format!("{key} holds the control character");
+        let words = format!("{key} contains the control character");
         refused(&["analyze", file.to_str().unwrap()], &[&words]);
     }
     let json = folder.path().join("x.json");
@@ -28,7 +28,7 @@ fn control_characters_are_refused() {
     fs::write(&json, changed(&shown, "\"four-bar\"", "\"a\\u001b\"")).unwrap();
     refused(
         &["analyze", json.to_str().unwrap()],
-        &["name holds the control character \\u{1b}"],
+        &["name contains the control character \\u{1b}"],
     );
     let urdf = folder.path().join("x.urdf");
     for name in ["a\u{1b}[31m", "a&#13;b"] {

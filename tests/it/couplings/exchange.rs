@@ -183,7 +183,7 @@ fn equalities_of_mujoco() {
     // A polynomial by its derivative at the pose.
     let i = mjcf(r#"<joint joint1="b" joint2="a" polycoef="0 1 0.5 0 0"/>"#);
     let told = i.report.text("x.xml");
-    has(&told, "the derivative at this pose");
+    has(&told, "its rate of 1 at this pose");
     let m = mechanism(&i.toml().unwrap());
     assert_eq!(
         (m.couplings[0].ratio.to_f64(), exact(&m).mobility),

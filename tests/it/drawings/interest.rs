@@ -123,7 +123,7 @@ fn what_is_wrong_with_a_point_is_told() {
     let twice = own.clone() + "\n[[point]]\nid = \"foot\"\nlink = \"m\"\npoint = [0, 0, 0]\n";
     let (code, _, err) = run_on("check", "leg.toml", &twice, &[]);
     assert_eq!(code, Some(2));
-    has(&err, "point has the id \"foot\" twice");
+    has(&err, "point id \"foot\" is used twice");
 }
 
 #[test]

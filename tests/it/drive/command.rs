@@ -167,9 +167,9 @@ fn bad_tables_are_refused_where_they_stand() {
         inertia = 0.23 |  | [workload.drive] | drive needs inertia
         inertia = 0.23 | disc_inertia = 0 | disc_inertia | a disc or a payload
         inertia = 0.23 | inertia = 1\npayload_mass = 2 | payload_mass | needs payload_radius
-        inertia = 0.23 | inertia = 1\ndisc_inertia = 1 | disc_inertia | cannot stand beside inertia
+        inertia = 0.23 | inertia = 1\ndisc_inertia = 1 | disc_inertia | and inertia exclude each other
         period = 0.8 |  | [workload.drive] | drive needs period
-        period = 0.8 | period = 0.8\nswing_time = 0.4 | swing_time | cannot stand beside period
+        period = 0.8 | period = 0.8\nswing_time = 0.4 | swing_time | and period exclude each other
         period = 0.8 | period = inf | period | finite
         "pi/2" | 0 | swing_angle | an angle above 0
         shear_modulus = 8e10 | shear_modulus = 80 | shear_modulus | such as 8e10 for steel
@@ -179,7 +179,7 @@ fn bad_tables_are_refused_where_they_stand() {
         swings = 5 | swings = 0 | swings | 1 to 10000
         swings = 5 | motion = "both" | motion | known: stepwise, reversing
         swings = 5 | programme = ["3"] | programme | wait 0.3
-        swings = 5 | swings = 5\nprogramme = ["1"] | swings | cannot stand beside programme
+        swings = 5 | swings = 5\nprogramme = ["1"] | swings | and programme exclude each other
         swings = 5 | latch_capture = -1 | latch_capture | an angle from 0
         swings = 5 | feed_from = 50 | feed_from | within the swing
         swings = 5 | feed_moments = [] | feed_moments | 1 to 1000
@@ -187,7 +187,7 @@ fn bad_tables_are_refused_where_they_stand() {
         swings = 5 | feed_moments = [[0, 1], [20, -1]] | feed_moments | 0 or a number above it
         swings = 5 | feed_moments = [[10, 1], [10, 2]] | feed_moments | beyond that of the piece before
         swings = 5 | feed_moments = [[46, 1]] | feed_moments | within the swing
-        swings = 5 | feed_energy = 1\nfeed_moments = [[0, 1]] | feed_energy | cannot stand beside feed_moments
+        swings = 5 | feed_energy = 1\nfeed_moments = [[0, 1]] | feed_energy | and feed_moments exclude each other
 "#,
     ) {
         let text = small_with(from, to);

@@ -41,10 +41,10 @@ fn check_doubts_what_is_likely_a_slip() {
     for [from, to, line, parts] in cases::<4>(
         r#"
         length_unit = "mm"\n |  | name = | 150 m across & length_unit = "mm"
-        "mm" | "m" | length_unit | 150 m across & is meant
+        "mm" | "m" | length_unit | 150 m across & is correct
         point = [80, 90, 0] | point = [0, 30.00001, 0] | 30.00001 | "1-2" and "2-3" & same point
         point = [80, 90, 0] | point = [80.0123456789, 90, 0] | [[joint]] | measured & [tolerance]
-        "spherical"] | "prismatic"] | "prismatic"] | no joint can take the option "prismatic"
+        "spherical"] | "prismatic"] | "prismatic"] | option "prismatic" is never used
         [search]\n | [search]\nunloading = ["spherical"]\n | unloading = | no effect & unloading = true
         drive = true | drive = true\nunloading = true | unloading = true | "0-1" allows & [search] lists none
         drive = true | drive = true\nforbid = ["sferical"] | forbid | forbids "sferical"
@@ -52,9 +52,9 @@ fn check_doubts_what_is_likely_a_slip() {
         [search]\n | [workload]\ngravity = [0, -9.81, 0]\n[search]\n | gravity | no link has a mass
         id = "1"\n | id = "1"\nmass = 1\ncentre = [0, 0, 0]\n | mass = 1 | no effect without gravity
         [search]\n | [ranking]\nterms = [{ term = "peak-force" }]\n[search]\n | terms = | peak-force & nothing loads
-        # rocker on | [[joint]]\nid = "x"\nlinks = ["2", "1"]\ntype = "revolute"\npoint = [0, 30, 0]\naxis = [0, 0, 1]\n# rocker on | ["2", "1"] | "1-2" and "x" are the same joint
+        # rocker on | [[joint]]\nid = "x"\nlinks = ["2", "1"]\ntype = "revolute"\npoint = [0, 30, 0]\naxis = [0, 0, 1]\n# rocker on | ["2", "1"] | "1-2" and "x" are identical
         [[contour]]\n | [[contour]]\njoints = ["2-3", "1-2", "0-1", "3-0"]  # turned\n[[contour]]\n | joints = ["0-1" | follows from the others
-        [[contour]]\n | [[link]]\nid = "z"\n[[joint]]\nid = "3-z"\nlinks = ["3", "z"]\ntype = "revolute"\npoint = [9, 9, 9]\naxis = [0, 0, 1]\n[[contour]]\n | [[joint]]\nid = "3-z" | no contour passes through 3-z
+        [[contour]]\n | [[link]]\nid = "z"\n[[joint]]\nid = "3-z"\nlinks = ["3", "z"]\ntype = "revolute"\npoint = [9, 9, 9]\naxis = [0, 0, 1]\n[[contour]]\n | [[joint]]\nid = "3-z" | no loop passes through 3-z
         [[contour]]\n | [[link]]\nid = "z"\n[[joint]]\nid = "3-z"\nlinks = ["3", "z"]\ntype = "fixed"\npoint = [9, 9, 9]\n[[contour]]\n | type = "fixed" | "3-z" is fixed in every state & "3" and "z"
         [[contour]]\n | [[link]]\nid = "z"\nrole = "object"\n[[joint]]\nid = "3-z"\nlinks = ["3", "z"]\ntype = "fixed"\npoint = [9, 9, 9]\nstate = "held"\n[[contour]]\n | id = "z" | "z" has a single joint in state held
 "#,

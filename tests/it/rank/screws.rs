@@ -70,7 +70,7 @@ fn a_written_pitch_reads_back() {
 #[test]
 fn what_is_wrong_with_a_screw_is_told() {
     for (pitch, said) in [
-        ("lead = 5\npitch = 1", "lead cannot stand beside pitch"),
+        ("lead = 5\npitch = 1", "lead and pitch exclude each other"),
         ("# none", "needs a lead, the translation per turn"),
         ("pitch = \"5/(2*pie)\"", "unknown word `pie`"),
         ("pitch = \"5/(pi-pi)\"", "division by zero"),

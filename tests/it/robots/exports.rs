@@ -214,11 +214,11 @@ fn nothing_is_lost_in_silence() {
     for to in ["mjcf", "urdf", "sdf"] {
         let text = formats::write(&m, to).unwrap();
         assert!(
-            text.contains(&format!("not of the free state: {}", out.join(", "))),
+            text.contains(&format!("not in the free state): {}", out.join(", "))),
             "{to}: {text}"
         );
-        assert!(text.contains("no words for it: "), "{to}: {text}");
-        assert!(text.contains("the options of a search"), "{to}: {text}");
+        assert!(text.contains("cannot represent it): "), "{to}: {text}");
+        assert!(text.contains("search options"), "{to}: {text}");
     }
 }
 
@@ -342,9 +342,9 @@ fn what_is_lost_is_named() {
         &path("rich.toml"),
     ]);
     for (to, made_up) in [
-        ("urdf", "has limits of 1 m"),
+        ("urdf", "limits of 1 m"),
         ("sdf", "weigh 1 kg"),
-        ("mjcf", "weigh a gram"),
+        ("mjcf", "get 1 g"),
         ("toml", ""),
     ] {
         for from in ["rich.xml", "rich.toml"] {

@@ -228,7 +228,7 @@ fn fix_refuses_what_it_cannot_write() {
     let words = ["fix", main.to_str().unwrap(), "-o", out.to_str().unwrap()];
     let (code, _, told) = ran(&words);
     assert!(
-        code == Some(2) && told.contains("in a file that is included"),
+        code == Some(2) && told.contains("in an included file"),
         "{told}"
     );
     assert!(!Path::new(&out).exists());

@@ -185,8 +185,8 @@ fn mjcf_errors() {
         <joint type='screw'/> | hinge, slide, ball, free
         <joint axis='0 0 0'/> | axis
         <joint class='x'/> | default class "x"
-        <joint/><body name='a'/> | is there twice
-        <joint name='j'/><body><joint name='j'/></body> | joint "j" is there twice
+        <joint/><body name='a'/> | is defined twice
+        <joint name='j'/><body><joint name='j'/></body> | joint "j" is defined twice
         <composite/> | save the compiled model
         <joint/><body quat='1 0 0 0' euler='0 0 0'/> | two orientations
         <joint/><body quat='0 0 0 0'/> | not zero

@@ -86,7 +86,7 @@ fn four_bars() {
     assert_eq!(figures(&i, 1e-9), [5, 5, 1, 4, 1, 3]);
     let i = model("four_bar_loop.sdf", &Options::default());
     assert_eq!(i.report.approximated.len(), 4);
-    assert!(i.report.approximated[0].what.contains("--assemble"));
+    assert!(i.report.approximated[0].what.contains("`assemble`"));
     // The third is closed by a file beside it; its links are side by side, so that a revolute joint there
     // does not close, and a cylindrical one does: W = 1, σ = 2.
     let closed = |kind: &str| {

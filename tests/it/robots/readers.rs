@@ -109,7 +109,7 @@ fn sdf_includes_of_models() {
         <uri>../secret/model.sdf</uri> | outside the folder
         <uri>https://fuel.gazebosim.org/x</uri> | https:// is not read
         <uri>model://self</uri> | includes itself
-        <uri>model://two</uri> | has not one <model>
+        <uri>model://two</uri> | not have exactly one <model>
         <uri>model://arm</uri><placement_frame>a</placement_frame> | placed by a frame\nplaces them by a frame
         <name>x</name> | <uri>
 ",
@@ -131,7 +131,7 @@ fn parts_that_nothing_holds() {
     let i = read("m.sdf", &sdf);
     assert_eq!(figures(&i, 1e-9)[4], 13);
     assert!(
-        i.report.pose[0].contains("float in the world"),
+        i.report.pose[0].contains("float freely in the world"),
         "{:?}",
         i.report.pose
     );

@@ -88,7 +88,7 @@ fn sdf_kinds() {
         <link name='a'/><link name='a'/> | twice
         <link name='a'><pose>0 0 0</pose></link> | 6 finite numbers
         <link name='a'><pose relative_to='x'/></link> | "x"
-        <include><uri>model://x</uri></include> | --models
+        <include><uri>model://x</uri></include> | as `models`
         <frame name='f' attached_to='g'/><frame name='g' attached_to='f'/><link name='l'/><joint name='j' type='ball'><parent>f</parent><child>l</child></joint> | itself
         <link name='a'/><joint name='j' type='ball'><child>a</child></joint> | <parent>
         <link name='a'/><joint name='j' type='ball'><parent>a</parent><child>b</child></joint> | "b"

@@ -137,10 +137,7 @@ fn polynomials_are_taken_by_their_derivative() {
     );
     for (pose, ratio) in [("x=0", "ratio = 1"), ("x=1", "ratio = 2")] {
         let (w, _, notes) = linted("m.xml", &text, &["--pose", pose]);
-        assert!(
-            w == 1 && notes.contains("derivative at this pose"),
-            "{notes}"
-        );
+        assert!(w == 1 && notes.contains("at this pose is used"), "{notes}");
         let (_, out, _) = run_on("export", "m.xml", &text, &["--to", "toml", "--pose", pose]);
         assert!(out.contains(ratio), "{out}");
     }
@@ -186,7 +183,7 @@ fn lint_says_what_is_not_as_drawn() {
     ));
     for (name, text, more, words) in [
         ("m.xml", &open, &["--pose", "j1=0.5"][..], "closed to"),
-        ("m.sdf", &drake, &[], "Drake's own"),
+        ("m.sdf", &drake, &[], "of Drake that is not read"),
         ("m.sdf", &apart, &[], "1.000 m apart"),
     ] {
         let (_, out, err) = run_on("lint", name, text, more);

@@ -189,7 +189,7 @@ fn loops_beside_a_description_are_named() {
     std::fs::write(&side, "closed_loop: [[tip, base]]\ntype: [3d]\n").unwrap();
     let (code, out, _) = ran(&["lint", &urdf]);
     assert!(
-        code == Some(1) && out.contains("--loops robot.yaml") && out.contains("3 rows"),
+        code == Some(1) && out.contains("give robot.yaml as `loops`") && out.contains("3 rows"),
         "{out}"
     );
     // With the file every command that takes a description reads the same.

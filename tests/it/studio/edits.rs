@@ -145,12 +145,12 @@ fn what_cannot_be_done_changes_nothing_and_says_why() {
     let why = |edits: &[Edit]| edited(text, edits).unwrap_err().to_string();
     assert!(
         why(&[set(Thing::Joint, "no", "type", json!("fixed"))])
-            .contains("there is no joint \"no\"")
+            .contains("the file has no joint \"no\"")
     );
-    assert!(why(&[entry("9"), entry("3")]).contains("a link \"3\" already"));
+    assert!(why(&[entry("9"), entry("3")]).contains("link \"3\" already exists"));
     assert!(
         why(&[set(Thing::Joint, "0-1", "point", json!([1, null, 0]))])
-            .contains("nothing is no value")
+            .contains("an empty value is not allowed")
     );
     assert!(
         edited("a = [", &[entry("9")])

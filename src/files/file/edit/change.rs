@@ -92,16 +92,16 @@ pub enum Edit {
     reason = "the wording of each variant says what its fields are"
 )]
 pub enum EditError {
-    #[error("the text is no TOML: {why}; mend it first, or undo")]
+    #[error("the text is not valid TOML ({why}); fix it or undo")]
     NoToml { why: String },
-    #[error("there is no {what} \"{id}\" in the file any more")]
+    #[error("the file has no {what} \"{id}\" any more")]
     Gone { what: Thing, id: String },
-    #[error("there is a {what} \"{id}\" already; choose another name")]
+    #[error("{what} \"{id}\" already exists; choose another name")]
     Taken { what: Thing, id: String },
-    #[error("{what} cannot stand in a file: {why}")]
+    #[error("{what} cannot be written to a file: {why}")]
     NoValue { what: String, why: &'static str },
     #[error(
-        "{what} is written as a list of tables within brackets; write each with its own [[{what}]] to change it here"
+        "{what} is written as a list of tables within brackets; write each as a separate [[{what}]] to change it here"
     )]
     Inline { what: Thing },
 }

@@ -65,7 +65,7 @@ fn value(key: &str, to: &Json) -> Result<Value, EditError> {
         why,
     };
     Ok(match to {
-        Json::Null => return Err(wrong("nothing is no value")),
+        Json::Null => return Err(wrong("an empty value is not allowed")),
         Json::Bool(b) => Value::from(*b),
         Json::Number(n) => match (n.as_i64(), n.as_f64()) {
             (Some(i), _) => Value::from(i),

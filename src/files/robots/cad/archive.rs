@@ -30,7 +30,7 @@ impl Archive {
     }
 
     fn fail(&self, why: &ZipError) -> ImportError {
-        let message = format!("the zip archive cannot be read: {why}; {REMEDY}");
+        let message = format!("the zip archive cannot be read ({why}); {REMEDY}");
         syntax_problem(message).in_file(&self.name, "", None)
     }
 

@@ -169,7 +169,7 @@ fn three_slides() -> JointType {
 fn square(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     let (z, line, oj) = (axis(i, 2), axis(j, 2), j.translation);
     if length(cross(z, line)) < FLAT {
-        return Err("its two axes are parallel where they are to be at a right angle");
+        return Err("its two axes are parallel, but must be at a right angle");
     }
     // J's frame has its own x, and z as near I's as that lets it be.
     let across = cross(line, cross(z, line));
@@ -188,7 +188,7 @@ fn square(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'s
 fn bisected(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     let n = add(cross(axis(j, 1), axis(i, 0)), cross(axis(j, 0), axis(i, 1)));
     if length(n) < FLAT {
-        return Err("its two shafts stand so that it holds no turn");
+        return Err("its two shafts are placed so that it constrains no rotation");
     }
     let sum = dot(axis(i, 0), axis(j, 1)) + dot(axis(i, 1), axis(j, 0));
     let near = frame(i.translation, n, axis(i, 0));
@@ -211,7 +211,7 @@ fn angle(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'sta
     let n = cross(a, b);
     if length(n) < FLAT {
         return Err(
-            "its two axes are parallel here, where an angle between them holds nothing to first order",
+            "its two axes are parallel here, where an angle between them constrains nothing to first order",
         );
     }
     let off = length(n).atan2(dot(a, b)) - cosine.clamp(-1.0, 1.0).acos();
@@ -238,10 +238,10 @@ fn apart(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'st
         Holds::PointLine(r) | Holds::LineLine(r) | Holds::Hinges(r) => {
             (add_scaled(d, -along, z), r)
         }
-        _ => return Err("it is no distance"),
+        _ => return Err("it is not a distance"),
     };
     if length(way) < FLAT {
-        return Err("what is to be apart is in one place, so that the distance has no direction");
+        return Err("its two elements coincide, so the distance has no direction");
     }
     let u = towards(way);
     let gap = length(way) - wanted.abs();
@@ -275,7 +275,7 @@ fn gear(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &
     let d = sub(j.translation, i.translation);
     let d = sub(d, scale(z, dot(d, z)));
     if length(d) < FLAT {
-        return Err("its two axes are one line, where there is no line of centres");
+        return Err("its two axes coincide, so they have no line of centres");
     }
     if (a + b).abs() < FLAT * a.abs() {
         // A belt on equal wheels: both turn alike.

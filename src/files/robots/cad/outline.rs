@@ -58,7 +58,8 @@ fn outline(
             return Err((too_many("lines", MAX_ELEMENTS), start));
         }
         if depth > open.len() || (depth == 0 && !nodes.is_empty()) {
-            let message = "the line is not one tab deeper than what it belongs to; lay it out as OndselSolver does";
+            let message =
+                "the line is not one tab deeper than its parent; indent it as OndselSolver does";
             return Err((syntax_problem(message), start));
         }
         if depth >= MAX_DEPTH {
@@ -74,7 +75,7 @@ fn outline(
         open.push(id);
     }
     if nodes.is_empty() {
-        return Err((syntax_problem("there is nothing in the file"), 0));
+        return Err((syntax_problem("the file is empty"), 0));
     }
     said(&mut nodes, first);
     Ok(nodes)

@@ -154,7 +154,7 @@ pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Rea
         };
         let Some(simple) = becomes(origin, joint, &more) else {
             let why = format!(
-                "{} has no joint type with the freedoms that it would have",
+                "{} has no joint type with the required freedoms",
                 imported.format.name
             );
             return Err(cannot(part, element, why));
@@ -177,7 +177,7 @@ pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Rea
 
 fn cannot(part: &Part, element: Element<'_>, why: String) -> ImportError {
     let joint = format!("joint \"{}\"", part.id);
-    let problem = unsupported(&joint, &why, "choose another joint (--at)");
+    let problem = unsupported(&joint, &why, "choose another joint");
     element.fail(None, problem)
 }
 
@@ -196,9 +196,10 @@ fn by_joint(
             } => out.entry(joint).or_default().push((slides, direction)),
             Release::Coupling(q) => {
                 let element = origin.element(origin.couplings[q]);
-                let remedy =
-                    "suppress the joint in the CAD program, or choose another joint (--at)";
-                return Err(element.unsupported("it couples joints, and has no other type", remedy));
+                let remedy = "suppress the joint in the CAD program, or choose another joint";
+                return Err(
+                    element.unsupported("it couples joints, so its type cannot be changed", remedy)
+                );
             }
         }
     }

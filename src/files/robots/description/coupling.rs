@@ -55,13 +55,13 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
                 } else if !one(a) || !one(b) {
                     "only joints of one freedom are coupled".to_owned()
                 } else if out.iter().any(|u| u.ends == ends || u.ends == [b, a]) {
-                    "the two are coupled already".to_owned()
+                    "the two joints are coupled already".to_owned()
                 } else if ratio == 0.0 {
-                    format!("times 0, so that {follower} would stand still")
+                    format!("times 0, which would lock {follower}")
                 } else {
                     if coupling.higher != [0.0; 3] {
                         let what = format!(
-                            "{follower} is a polynomial of {leader}; here it follows {ratio} times as fast, the derivative at this pose"
+                            "{follower} is a polynomial of {leader}; its rate of {ratio} at this pose is used"
                         );
                         robot.report.approximate(&coupling.element, what);
                     }
@@ -76,7 +76,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
                 }
             }
         };
-        let what = format!("the coupling of {follower} to {leader} (1 row) is left out: {why}");
+        let what = format!("the coupling of {follower} to {leader} (1 row) is omitted: {why}");
         robot.report.leave_out_coupling(&coupling.element, what);
     }
     out
@@ -144,7 +144,12 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     }
     let left = m.couplings.iter().zip(&said).filter(|(_, s)| !**s);
     let present = left.filter(|(c, _)| m.couplings_in(StateId::FREE).any(|x| x.ends == c.ends));
-    let unsaid = |c: &Coupling| format!("coupled, which no mimic joint says: {}", c.name(m));
+    let unsaid = |c: &Coupling| {
+        format!(
+            "coupled, which a mimic joint cannot represent: {}",
+            c.name(m)
+        )
+    };
     (follows, present.map(|(c, _)| unsaid(c)).collect())
 }
 

@@ -59,11 +59,11 @@ pub(crate) fn beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
             Err(_) => 6,
         };
         let what = format!(
-            "it names closed loops of this robot, which are left out; read them with --loops {file}"
+            "it defines closed loops of this robot, which are omitted; give {file} as `loops` to read them"
         );
         robot
             .report
-            .leave_out_joint(&format!("{file} beside it"), rows, what);
+            .leave_out_joint(&format!("{file} next to it"), rows, what);
         return;
     }
 }
@@ -228,7 +228,7 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind>
         joint.values = vec![0.0; new.freedoms().len()];
         (joint.joint_type, joint.axis, joint.second) = (new, first, second);
         (joint.limits, joint.zero) = (None, 0.0);
-        joint.comment = Some(format!("{kind} by the file beside the description"));
+        joint.comment = Some(format!("{kind} by the file of loop closures"));
         robot.report.map("joint type");
     }
     Ok(())

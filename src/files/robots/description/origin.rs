@@ -97,7 +97,7 @@ impl Origin {
                 "rad"
             };
             Some(format!(
-                "{} stands at {value} {unit}, outside its limits {low} to {high}",
+                "{} is at {value} {unit}, outside its limits {low} to {high}",
                 p.id
             ))
         };

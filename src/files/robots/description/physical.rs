@@ -35,7 +35,7 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
 
 /// What is told where links have no mass of their own in the mechanism.
 pub(crate) const GRAM: &str =
-    "links without a mass weigh a gram, as engines refuse what moves without";
+    "links without a mass get 1 g, because engines reject massless moving bodies";
 
 /// The same of a link that moves, which engines refuse without mass or inertia: a gram where the file states none.
 pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
@@ -65,21 +65,20 @@ pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
 pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
     let mut out = Vec::new();
     if let Mode::Planar { .. } = m.mode {
-        let what =
-            "a planar model: its figures count 3 constraints per contour, those of this file 6";
+        let what = "a planar model: its figures count 3 constraints per loop, those of this file 6";
         out.push(what.to_owned());
     }
     let others = m.joint_ids().filter(|&j| !m.joints[j].is_in(StateId::FREE));
     let others = others.map(|j| m.joints[j].id.as_str()).join(", ");
     if !others.is_empty() {
-        out.push(format!("left out, as not of the free state: {others}"));
+        out.push(format!("omitted (not in the free state): {others}"));
     }
     let plane = |l: &crate::model::mechanism::Link| {
         let inertia = l.mass.as_ref().and_then(|p| p.inertia);
         matches!(inertia, Some(Inertia::Plane(_)))
     };
     if m.links.iter().any(plane) {
-        out.push("inertias about the plane's normal stand for all three axes".to_owned());
+        out.push("inertias about the plane's normal are used for all three axes".to_owned());
     }
     let loads = &m.loads;
     let loaded = !loads.forces.is_empty() || !loads.moments.is_empty();
@@ -91,13 +90,11 @@ pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
         (driven, "strokes and speeds"),
         (loads.grip.is_some(), "the gripper's data"),
         (loads.drive.is_some(), "the drive's data"),
-        (searched, "the options of a search"),
+        (searched, "search options"),
     ];
     let told = told.iter().filter(|t| t.0).map(|t| t.1).join(", ");
     if !told.is_empty() {
-        out.push(format!(
-            "left out, as this format has no words for it: {told}"
-        ));
+        out.push(format!("omitted (this format cannot represent it): {told}"));
     }
     out
 }

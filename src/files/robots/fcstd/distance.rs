@@ -121,12 +121,12 @@ fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Dist
             holds: Holds::LineInPlane(height(frames, swap)),
             swap,
             doubt: Some(
-                "the kinds of its faces are not known: by their directions they are taken as a plane and a cylinder",
+                "the kinds of its faces are not known; by their directions they are treated as a plane and a cylinder",
             ),
         };
     }
     Distance {
-        doubt: Some("the kinds of its elements are not known: they are taken as planes"),
+        doubt: Some("the kinds of its elements are not known; they are treated as planes"),
         holds: match found.holds {
             Holds::Planar(_) => Holds::Planar(height(frames, false)),
             other => other,

@@ -125,7 +125,7 @@ fn pinion(
             frames,
             swap: false,
             doubt: Some(
-                "neither part has a slider: the first is taken as the rack, along x of its frame",
+                "neither part has a slider; the first is treated as the rack, along x of its frame",
             ),
         };
     };

@@ -169,7 +169,7 @@ impl<'a> Object<'a> {
             .map(Some)
             .ok_or_else(|| {
                 let last = words.len().saturating_sub(1);
-                let want = format!("write the place of a word of its list, from 0 to {last}");
+                let want = format!("write the position of a word in its list, from 0 to {last}");
                 let problem = bad_value(&self.called(), name, found, &want);
                 index.fail(Some("value"), problem)
             })

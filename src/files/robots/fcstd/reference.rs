@@ -130,7 +130,7 @@ fn part<'a, 'n>(
         rest = inner;
         let Some(&part) = main.get(name) else {
             let what = if array {
-                format!("{which} is element {name} of an array, whose place is not read")
+                format!("{which} is element {name} of an array, whose position is not read")
             } else {
                 format!("{which} is broken: there is no object {name}")
             };
@@ -186,7 +186,7 @@ fn follow<'a>(
         // What is attached to nothing stands still.
         out.part = None;
         if is_attached(&part) {
-            out.doubt = Some("it is a datum that is attached, taken as standing still".to_owned());
+            out.doubt = Some("it is an attached datum, treated as fixed in place".to_owned());
         }
     }
     let mut at = ObjectInFile {
@@ -223,10 +223,10 @@ fn follow<'a>(
 fn unknown(name: &str, file: &str) -> String {
     let file = match file {
         "" => "which is not in the document".to_owned(),
-        file => format!("which is an object of {file}, not read"),
+        file => format!("which is an object of {file}, which is not read"),
     };
     format!(
-        "its frame is not known for sure: it is given in {name}, {file}, and taken as if that stood where its part does"
+        "its frame is uncertain: it is given in {name}, {file}, and is placed as if that part stood in its original position"
     )
 }
 

@@ -104,7 +104,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
         ratio: number(u.ratio),
         gear: u.gear,
     };
-    let what = "What a search may put in place of a joint; edit freely.";
+    let what = "Joint types that a search may use instead; edit freely.";
     comments.push(Comment::new("search", 0, what));
     let options = c.robot.options.iter().map(|t| t.name().to_owned());
     let file = MechanismFile {
@@ -132,8 +132,8 @@ fn description(c: &Content<'_>) -> String {
     let report = &c.robot.report;
     let left_out = match (report.coupling_rows, report.constraint_rows) {
         (0, 0) => "",
-        (_, 0) => " Some couplings of joints are left out.",
-        _ => " Some joints are left out.",
+        (_, 0) => " Some couplings of joints are omitted.",
+        _ => " Some joints are omitted.",
     };
     let left_behind = report.left_behind();
     let left_behind = left_behind.map_or(String::new(), |t| format!(" {}", one_line(&t)));

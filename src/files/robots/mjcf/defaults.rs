@@ -32,7 +32,7 @@ impl<'a> Defaults<'a> {
             let entry = classes.entry(class).or_insert((outer, Vec::new()));
             if entry.0 != outer {
                 let message =
-                    format!("default class \"{class}\" is there twice; names must be unique");
+                    format!("default class \"{class}\" is defined twice; names must be unique");
                 return Err(d.fail(Some("class"), syntax_problem(message)));
             }
             entry.1.push(d);

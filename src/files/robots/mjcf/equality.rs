@@ -50,14 +50,14 @@ pub(crate) fn read(
             "joint" => coupling(e, robot)?,
             "tendon" => tendons(e, root, robot)?,
             "flex" | "flexvert" | "flexstrain" => {
-                let what = "it holds a deformable body, which is left out";
+                let what = "it holds a deformable body, which is omitted";
                 robot.report.approximate(&e.label(), what);
             }
             "distance" => {
                 return Err(e.unsupported("it is not a joint", "remove it"));
             }
             _ => {
-                let what = "an equality of a kind that is not known; left out";
+                let what = "an equality of an unknown kind; omitted";
                 robot.report.leave_out_joint(&e.label(), 6, what);
             }
         }
@@ -160,7 +160,7 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 fn hold(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     let one = |j: &&mut Part| j.id == joint && j.values.len() == 1;
     let Some(j) = robot.joints.iter_mut().find(one) else {
-        let what = format!("{joint} can move; its equality is left out");
+        let what = format!("{joint} can move; its equality is omitted");
         return robot.report.leave_out_coupling(&e.label(), what);
     };
     j.values = vec![value];
@@ -179,7 +179,7 @@ fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
         None => Some(BTreeMap::new()),
     };
     let (Some(mut row), Some(second)) = (first, second) else {
-        let what = "an equality of a tendon that is not a sum of joint values (1 row) is left out";
+        let what = "an equality of a tendon that is not a sum of joint values (1 row) is omitted";
         robot.report.leave_out_coupling(&e.label(), what);
         return Ok(());
     };
@@ -197,7 +197,7 @@ fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
             robot.couplings.push(Ratio::new([a, b], -c / d, e));
         }
         _ => {
-            let what = "an equality of tendons that ties more than two joints, or is a polynomial (1 row), is left out";
+            let what = "an equality of tendons that couples more than two joints, or is a polynomial (1 row), is omitted";
             robot.report.leave_out_coupling(&e.label(), what);
         }
     }

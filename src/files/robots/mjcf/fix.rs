@@ -36,7 +36,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
         // A connect that may slide in three ways holds nothing.
         let slides = freed.iter().filter(|f| f.0).count();
         if e.name() == "connect" && slides == 3 {
-            let why = "ozols fix: left out, others hold all that it holds";
+            let why = "ozols fix: disabled, because other joints impose the same constraints";
             uncouple(origin, e.id, why, edits)?;
             continue;
         }
@@ -199,11 +199,11 @@ impl<'a> MjcfFile<'a> {
             joint && !p.closes && self.body(id).id == body.id
         });
         let (Some((link, last)), Some(part)) = (last, self.part(e.id)) else {
-            return Err(e.unsupported("it is not a joint of a body", "choose another (--at)"));
+            return Err(e.unsupported("it is not a joint of a body", "choose another"));
         };
         let last = self.origin.element(last);
         if self.parents[last.id] != Some(body.id) {
-            return Err(e.unsupported("its body has joints in a <frame>", "choose another (--at)"));
+            return Err(e.unsupported("its body has joints in a <frame>", "choose another"));
         }
         let frame = self.origin.places[link.links[1]];
         let point = self.origin.places[part.links[1]]
@@ -264,9 +264,9 @@ impl<'a> MjcfFile<'a> {
         freed: Freed<'_>,
         edits: &mut Edits<'_>,
     ) -> Read<()> {
-        let found = self.named("site", Some(site)).ok_or_else(|| {
-            e.unsupported("its first site has no element", "choose another (--at)")
-        })?;
+        let found = self
+            .named("site", Some(site))
+            .ok_or_else(|| e.unsupported("its first site has no element", "choose another"))?;
         let around = self.parent(found);
         let root = self.origin.element(self.origin.root);
         let own = compiler(root)?.place(found)?;
@@ -277,7 +277,10 @@ impl<'a> MjcfFile<'a> {
         let copy = edits.name(&format!("{site}_between"));
         let raw = edits.raw(found);
         let Some(span) = found.value_span("name") else {
-            return Err(found.unsupported("its name has character references", "write it plainly"));
+            return Err(found.unsupported(
+                "its name has character references",
+                "write it as plain text",
+            ));
         };
         let start = found.node().span.start;
         let (before, after) = (&raw[..span.start - start], &raw[span.end - start..]);
@@ -334,7 +337,9 @@ impl<'a> MjcfFile<'a> {
                     return Err(key.unsupported(&why, "correct or remove the keyframe"));
                 }
                 let Some(span) = key.value_span(attribute) else {
-                    return Err(key.unsupported("it has character references", "write it plainly"));
+                    return Err(
+                        key.unsupported("it has character references", "write it as plain text")
+                    );
                 };
                 let starts = word_starts(
                     &edits.raw(key)

@@ -89,11 +89,11 @@ fn included(
     }
     if open.len() > LIMITS.0 || count > LIMITS.1 {
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
-        return Err(refuse(e, &why, "put the files together"));
+        return Err(refuse(e, &why, "merge the files"));
     }
     if !files.reach(&file) {
         let why = "it is outside the folder of the file";
-        let remedy = "copy it there, or name a folder that holds both with --models";
+        let remedy = "copy it there, or give a folder that contains both as `models`";
         return Err(refuse(e, why, remedy));
     }
     let bytes = (files.read)(&file).map_err(|error| {
@@ -101,7 +101,7 @@ fn included(
         refuse(e, &why, "put it in the folder of the file")
     })?;
     if let Err(why) = document.has_room(bytes.len()) {
-        return Err(refuse(e, &why, "remove what is not kinematics"));
+        return Err(refuse(e, &why, "remove everything that is not kinematics"));
     }
     document.read(&file, xml::utf8(&file, &bytes)?)
 }

@@ -14,9 +14,9 @@ use crate::robots::xml::element::Element;
 pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let light = Light::in_description(&origin.document).sdf();
     for &(part, e, freed) in all {
-        let remedy = "choose another joint (--at)";
+        let remedy = "choose another joint";
         let (Some(child), "joint") = (e.child("child"), e.name()) else {
-            return Err(e.unsupported("no link can be put in between there", remedy));
+            return Err(e.unsupported("no link can be inserted there", remedy));
         };
         let mut nodes = origin.document.nodes.iter();
         let model = nodes
@@ -25,7 +25,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
         let model = origin.element(model);
         let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
         let Some(link) = model.named("link").find(named) else {
-            return Err(e.unsupported("its child is not a link of its own model", remedy));
+            return Err(e.unsupported("its child is not a link of the same model", remedy));
         };
         let frame = axes_frame(origin, model, part, e)?;
         let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();

@@ -34,7 +34,7 @@ pub(crate) fn gearbox(
         found.extend(hinge(robot, [on, link], about));
     }
     let [(leader, first), (follower, second)] = found[..] else {
-        let what = "it has not a hinge of its parent and one of its child on the body it refers to, about its axes; its coupling (1 row) is left out";
+        let what = "it needs a hinge of its parent and one of its child on its reference body, about its axes; its coupling (1 row) is omitted";
         robot.report.leave_out_coupling(&e.label(), what);
         return Ok(());
     };

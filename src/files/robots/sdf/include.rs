@@ -82,12 +82,17 @@ fn included(
         Err(_) if SCENERY.contains(&uri.trim_end_matches('/')) => return Ok((None, uri)),
         Err(error) => {
             let why = format!("it cannot be read ({error})");
-            let remedy = "name the folder that its model is in with --models";
+            let remedy = "give the folder of its model as `models`";
             return Err(refuse(e, &uri, &why, remedy));
         }
     };
     if let Err(why) = document.has_room(bytes.len()) {
-        return Err(refuse(e, &uri, &why, "remove what is not kinematics"));
+        return Err(refuse(
+            e,
+            &uri,
+            &why,
+            "remove everything that is not kinematics",
+        ));
     }
     let inner = document.read(&uri, xml::utf8(&uri, &bytes)?)?;
     let found = document.element(inner);
@@ -97,8 +102,11 @@ fn included(
         return Ok((None, uri));
     }
     let [model] = models[..] else {
-        let (e, why) = (document.element(id), "the file has not one <model>");
-        return Err(refuse(e, &uri, why, "name a file that has"));
+        let (e, why) = (
+            document.element(id),
+            "the file does not have exactly one <model>",
+        );
+        return Err(refuse(e, &uri, why, "name a file with one model"));
     };
     said_by_include(document, id, model);
     Ok((Some(model), uri))
@@ -117,7 +125,7 @@ fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> 
     }
     if open.len() >= LIMITS.0 || count > LIMITS.1 {
         let why = format!("more than {} files deep or {} in all", LIMITS.0, LIMITS.1);
-        return Err(refuse(e, uri, &why, "put the files together"));
+        return Err(refuse(e, uri, &why, "merge the files"));
     }
     if e.attribute("merge").is_some_and(|m| m == "true") || e.child("placement_frame").is_some() {
         let why = "it merges models or places them by a frame";

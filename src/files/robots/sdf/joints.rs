@@ -144,9 +144,9 @@ fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
 /// Tells how far, in metres, a joint is from the frame that is its parent.
 fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
     let done = if assembled {
-        "put together"
+        "assembled"
     } else {
-        "taken as drawn, as SDF has it (--assemble puts them together)"
+        "used as drawn, as SDF defines it (the option `assemble` moves the parts)"
     };
     let what = format!("its parent frame and the joint are {far:.3} m apart in the file; {done}");
     robot.report.approximate(&e.label(), what);

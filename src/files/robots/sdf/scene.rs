@@ -118,7 +118,7 @@ pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Read<()> {
                 break w;
             }
             if path.len() > scene.placed.len() {
-                let why = "its place is relative to itself, by way of others";
+                let why = "its place is relative to itself through other elements";
                 let remedy = "change one of their relative_to";
                 return Err(p.element.unsupported(why, remedy));
             }
@@ -173,7 +173,7 @@ pub(crate) fn located(
     moves_with(scene, name).map_err(|missing| match missing {
         Some(n) => unknown(e, &n, scene),
         None => e.unsupported(
-            &format!("{name} is attached to itself, by way of others"),
+            &format!("{name} is attached to itself through other elements"),
             "attach it to a link",
         ),
     })

@@ -36,7 +36,7 @@ pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
     let mut told = left_out(m);
     told.extend(unsaid);
     if m.links.iter().any(|l| l.mass.is_none()) {
-        told.push("links without a mass weigh 1 kg, as SDF has it".to_owned());
+        told.push("links without a mass weigh 1 kg, the default of SDF".to_owned());
     }
     let mut w = SdfWriter {
         m,

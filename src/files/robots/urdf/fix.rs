@@ -18,7 +18,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
             _ => ("link1", e.child("link1")),
         };
         let Some(end) = e.child(tag) else {
-            return Err(e.unsupported("it has no end to change", "choose another joint (--at)"));
+            return Err(e.unsupported("it has no end that can be changed", "choose another joint"));
         };
         let frame = origin.places[part.links[0]].then(&part.sides[0]);
         let mut from = end.required("link")?.to_owned();

@@ -193,7 +193,10 @@ impl UrdfWriter<'_> {
             told.push(GRAM.to_owned());
         }
         if self.body.contains(LIMIT) {
-            told.push("what slides has limits of 1 m that are made up: URDF wants some".to_owned());
+            told.push(
+                "sliding joints get placeholder limits of 1 m, because URDF requires limits"
+                    .to_owned(),
+            );
         }
         // Only now is it known which joints are of the tree, and what they are called.
         let body = settled(&self.body, |j| {

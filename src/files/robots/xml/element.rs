@@ -126,7 +126,7 @@ impl<'a> Element<'a> {
 
     /// Returns the error for a name that two elements have.
     pub(crate) fn duplicate(self) -> ImportError {
-        let message = format!("{} is there twice; names must be unique", self.label());
+        let message = format!("{} is defined twice; names must be unique", self.label());
         self.fail(Some("name"), syntax_problem(message))
     }
 

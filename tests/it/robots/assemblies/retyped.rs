@@ -65,7 +65,7 @@ fn fix_keeps_to_the_joints_that_may_be_changed() {
     has(&said, "no choice of joint types");
     let (code, _, said) = ran(&["fix", &old, "--at", "Z"]);
     assert_eq!(code, Some(2));
-    has(&said, "there is no such joint");
+    has(&said, "no such joint");
 }
 
 // A search may be asked for types that FreeCAD has no joint for; those are not written.
@@ -146,7 +146,7 @@ fn asmt_files_get_other_labels() {
         twice.replacen("RevoluteJoint", "CylindricalJoint", 1)
     );
     let e = slide([1.0, 0.0, 0.0]).unwrap_err();
-    has(&e.to_string(), "no joint type with the freedoms");
+    has(&e.to_string(), "no joint type with the required freedoms");
 }
 
 // A hinge has the turn about its own axis already: an axis some digits off is no other type, while a square one is.

@@ -279,7 +279,7 @@ fn limits_are_said_to_be_left_out() {
         .collect();
     assert_eq!(notes.len(), 1);
     assert!(
-        notes[0].starts_with("joint \"A\": limits are left out"),
+        notes[0].starts_with("joint \"A\": limits are omitted"),
         "{notes:?}"
     );
     assert_eq!(figures(&i), (1, 3));

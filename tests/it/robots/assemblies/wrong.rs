@@ -76,7 +76,7 @@ fn numbers_and_places_that_are_none_are_named() {
     let said = refused("x.FCStd", &fcstd(&turned));
     has(&said, "write a rotation");
     let twice = [bar.clone(), vec![part("Crank", HERE)]].concat();
-    assert!(refused("x.FCStd", &fcstd(&twice)).contains("is there twice"));
+    assert!(refused("x.FCStd", &fcstd(&twice)).contains("is defined twice"));
 }
 
 // FreeCAD leaves such joints out, and so do the figures, which say so: W may be too high.
@@ -97,11 +97,7 @@ fn joints_that_cannot_be_read_are_left_out_and_told() {
         &joint_type("Helix", &["Fixed", "Helix"]),
     );
     let i = read("x.FCStd", &fcstd(&other), &Options::default());
-    assert!(
-        i.report
-            .text("x")
-            .contains("type Helix, which is not known")
-    );
+    assert!(i.report.text("x").contains("type Helix is not known"));
 }
 
 #[test]
@@ -177,7 +173,10 @@ fn several_assemblies_and_parts_that_float() {
     assert_eq!(figures(&i), (1, 3));
     let told = i.report.text("x");
     has(&told, "another assembly of the document");
-    has(&told, "2 part that nothing ties to the ground (Nut, Bolt)");
+    has(
+        &told,
+        "2 part that is not connected to the ground (Nut, Bolt)",
+    );
     let options = but(|o: &mut Options| o.assembly = Some("Other".to_owned()));
     assert_eq!(figures(&read("x.FCStd", &bytes, &options)), (1, 0));
     let options = but(|o: &mut Options| o.assembly = Some("Third".to_owned()));
@@ -234,7 +233,7 @@ fn linked_documents_are_read_where_they_are() {
     );
     let not = read("x.FCStd", &bytes("gone.FCStd"), &Options::default());
     let told = not.report.text("x");
-    has(&told, "its frame is not known for sure");
+    has(&told, "its frame is uncertain");
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn pairs_that_are_no_mirror_images_are_refused_with_their_distance() {
         let said = refused(&[command, &path]);
         // (3, 2.5) mirrored is (3, -2.5), and 7-0 is at (3.5, -0.5).
         for part in [
-            "joints \"2-3\" and \"7-0\" are no mirror images",
+            "joints \"2-3\" and \"7-0\" are not mirror images",
             "2.06",
             "cm",
             &format!("m.toml:{line}:"),

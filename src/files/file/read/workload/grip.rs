@@ -271,7 +271,8 @@ fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Opt
     clamp.check_contacts(&at);
     clamp.check_pivots(&t.key("lever_joints"));
     if !clamp.holds_alone() {
-        let allowed = "all four joints of the part, each once: nothing else may hold it";
+        let allowed =
+            "all four joints of the part, each once, and no other joint may hold the part";
         at.bad("list of contacts", format!("{ids:?}"), allowed);
     }
     Some(contacts)

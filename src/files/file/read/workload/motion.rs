@@ -26,7 +26,7 @@ fn speed(text: &str) -> Option<f64> {
 
 /// A stroke that is not written as one.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("--stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
+#[error("stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
 pub struct NoStroke(String);
 
 /// A range and its steps, such as "0:360deg:72".

@@ -101,7 +101,7 @@ pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>
         at(
             1,
             format!(
-                "{what}; columns are ax, ay, az in m/s², and if wanted gx, gy, gz in m/s², time in s, diameter"
+                "{what}; columns are ax, ay, az in m/s², and optionally gx, gy, gz in m/s², time in s, diameter"
             ),
         )
     };
