@@ -16,7 +16,7 @@ pub struct Shard {
 
 /// Error for a shard that does not exist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("a part is written 1/7, the first of seven")]
+#[error("write a part as 1/7, the first of seven")]
 pub struct NoShard;
 
 impl Shard {

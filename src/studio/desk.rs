@@ -116,7 +116,7 @@ impl Desk {
             file.keep(&bytes)
         };
         self.trouble = kept.err().map(|e| {
-            format!("unsaved work cannot be kept beside the file ({e}); save it, or download it")
+            format!("unsaved work cannot be stored next to the file ({e}); save it, or download it")
         });
     }
 
@@ -150,14 +150,14 @@ impl Desk {
         let text = match (file.kind, self.text()) {
             (Kind::Description, _) | (_, None) => {
                 return Err(Refused::Words(
-                    "a robot description or an assembly is here to be looked at, and to take an idea; `ozols export FILE --to \
-                     toml` makes a mechanism file of it, which can be drawn"
+                    "robot descriptions and assemblies are read-only here; apply an idea, or \
+                    convert the file to TOML with `ozols export` to draw it"
                         .to_owned(),
                 ));
             }
             (Kind::Json, _) if edits.iter().any(|e| !matches!(e, Edit::Text { .. })) => {
                 return Err(Refused::Words(
-                    "a JSON file is changed as text; `ozols export FILE --to toml` makes one of it that can be drawn".to_owned(),
+                    "a JSON file can only be changed as text; convert it to TOML with `ozols export` to draw it".to_owned(),
                 ));
             }
             (_, Some(text)) => text,
@@ -185,7 +185,7 @@ impl Desk {
         let whole = edits.iter().any(|e| matches!(e, Edit::Text { .. }));
         if whole && revision != Some(self.revision) {
             return Err(Refused::Conflict(
-                "the text was changed in another window; here is what it is now".to_owned(),
+                "the text was changed in another window; this is the current version".to_owned(),
             ));
         }
         let (text, _) = self.draft(edits)?;
@@ -231,8 +231,8 @@ impl Desk {
         if let Some(name) = name.filter(|n| *n != self.file().name()) {
             let Some(plain) = disk::plain_name(name) else {
                 return Err(Refused::Words(
-                    "a name is letters, digits, blanks, - and _, and ends in .toml; the file is put into the folder of the one \
-                     that is open"
+                    "use letters, digits, blanks, - and _ in a name that ends in .toml; the file \
+                    is saved in the folder of the open one"
                         .to_owned(),
                 ));
             };
@@ -243,7 +243,7 @@ impl Desk {
             let path = self.folder().join(plain);
             if path.symlink_metadata().is_ok() {
                 return Err(Refused::Words(format!(
-                    "{plain} is there already; choose another name"
+                    "{plain} already exists; choose another name"
                 )));
             }
             let bytes = self.bytes().clone();
@@ -259,8 +259,7 @@ impl Desk {
         self.look_at_disk()?;
         if self.theirs.is_some() {
             return Err(Refused::Conflict(
-                "another program has written to the file; say first which of the two is to stay"
-                    .to_owned(),
+                "the file was changed by another program; choose which version to keep".to_owned(),
             ));
         }
         let (number, bytes) = (self.steps[self.at].file, self.bytes().clone());

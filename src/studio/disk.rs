@@ -124,8 +124,9 @@ impl OpenFile {
             None => {
                 let free = (0..KEEPERS).map(|n| self.keeper(n));
                 let mut free = free.filter(|p| !p.exists());
-                free.next()
-                    .ok_or_else(|| io::Error::other("too much unsaved work lies beside the file"))?
+                free.next().ok_or_else(|| {
+                    io::Error::other("too much unsaved work is stored next to the file")
+                })?
             }
         };
         let file = written(&path, |beside| {

@@ -41,27 +41,27 @@ impl Door {
     pub(super) fn admit<'a>(&self, asked: &'a Asked) -> Result<&'a str, Reply> {
         let refused = |why| Err(Reply::refusal(403, why));
         if asked.header("host") != Some(self.host.as_str()) {
-            return refused("this server answers to 127.0.0.1 and its port alone");
+            return refused("this server answers only to 127.0.0.1 and its port");
         }
         let own = format!("http://{}", self.host);
         let origin = asked.header("origin");
         let writes = asked.method != "GET";
         if (asked.has("origin") || writes) && origin != Some(own.as_str()) {
-            return refused("requests of other pages are not answered");
+            return refused("requests from other pages are refused");
         }
         // "none" is an address that a person typed or clicked outside of any page.
         let site = asked.header("sec-fetch-site");
         if asked.has("sec-fetch-site") && !matches!(site, Some("same-origin" | "none")) {
-            return refused("requests of other pages are not answered");
+            return refused("requests from other pages are refused");
         }
         if writes && asked.header("content-type") != Some("application/json") {
-            return Err(Reply::refusal(415, "what is sent here is JSON"));
+            return Err(Reply::refusal(415, "requests must be JSON"));
         }
         let path = asked.path.split('?').next().unwrap_or_default();
         let inside = path.strip_prefix('/').and_then(|p| p.split_once('/'));
         match inside {
             Some((token, rest)) if same(token, &self.token) => Ok(rest),
-            _ => refused("the address has not the token that `ozols studio` printed"),
+            _ => refused("the address lacks the token that `ozols studio` printed"),
         }
     }
 }

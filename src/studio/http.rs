@@ -105,21 +105,21 @@ pub(super) fn read_head(stream: &mut TcpStream) -> io::Result<Result<Asked, Repl
             return refused(431, "the head of the request is too large");
         }
         if more(stream, &mut bytes, HEAD, until)? == 0 {
-            return refused(400, "the request ends early");
+            return refused(400, "the request is incomplete");
         }
     };
     let mut list = [httparse::EMPTY_HEADER; HEADERS];
     let mut parsed = httparse::Request::new(&mut list);
     let whole = parsed.parse(&bytes[..end]).is_ok_and(|s| s.is_complete());
     let (Some(method), Some(path), true) = (parsed.method, parsed.path, whole) else {
-        return refused(400, "this is no request of HTTP/1.1");
+        return refused(400, "not an HTTP/1.1 request");
     };
     let header = |h: &httparse::Header<'_>| {
         let value = std::str::from_utf8(h.value).ok()?.trim().to_owned();
         Some((h.name.to_ascii_lowercase(), value))
     };
     let Some(headers) = parsed.headers.iter().map(header).collect() else {
-        return refused(400, "a header is no text");
+        return refused(400, "a header is not text");
     };
     Ok(Ok(Asked {
         method: method.to_owned(),
@@ -136,19 +136,19 @@ pub(super) fn read_body(
 ) -> io::Result<Result<(), Reply>> {
     let until = Instant::now() + PATIENCE;
     if asked.has("transfer-encoding") {
-        return refused(501, "a body comes with its length");
+        return refused(501, "a body needs its length");
     }
     let length = match (asked.has("content-length"), asked.header("content-length")) {
         (false, _) => Some(0),
         (true, said) => said.and_then(|l| l.parse::<usize>().ok()),
     };
     match length {
-        None => return refused(400, "the length of the body is no number"),
+        None => return refused(400, "the length of the body is not a number"),
         Some(l) if l > BODY => return refused(413, "the body of the request is too large"),
         Some(l) => {
             while asked.body.len() < l {
                 if more(stream, &mut asked.body, l, until)? == 0 {
-                    return refused(400, "the request ends early");
+                    return refused(400, "the request is incomplete");
                 }
             }
             asked.body.truncate(l);

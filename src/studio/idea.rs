@@ -52,7 +52,7 @@ pub(super) enum Taken {
 
 /// Takes an idea, counted from 1.
 pub(super) fn take(reading: &DeskReading, found: &Outcome, k: usize) -> Result<Taken, Refused> {
-    let gone = || Refused::Words(format!("there is no idea {k} in the list any more"));
+    let gone = || Refused::Words(format!("idea {k} is no longer in the list"));
     let variant = found.variants().nth(k.checked_sub(1).ok_or_else(gone)?);
     let variant = variant.ok_or_else(gone)?;
     let (before, after) = (&found.search.mechanism, variant.mechanism());

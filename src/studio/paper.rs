@@ -82,7 +82,7 @@ pub(super) fn html() -> String {
                 dialog id="shelf" aria-labelledby="shelf-head" {}
                 dialog id="help" aria-labelledby="help-head" {}
                 p id="said" class="unseen" role="status" aria-live="polite" {}
-                noscript { p { "The studio is a page of scripts; they are its own, and come from this machine alone." } }
+                noscript { p { "The studio is a page of scripts, all of which come from this machine." } }
             }
         }
     };
@@ -115,9 +115,9 @@ fn stage() -> Markup {
             div id="sheet-room" {
                 div id="views" role="toolbar" aria-label="View" {}
                 div id="sheet" class="turn" tabindex="0" role="application" aria-roledescription="drawing"
-                    aria-label="The mechanism; tools have letters, arrow keys move what is selected or the cross, Enter sets it, question mark lists all keys" {}
+                    aria-label="The mechanism; tools have letters, arrow keys move the selection or the cursor, Enter places a point, question mark lists all keys" {}
                 div id="hint" {}
-                ul id="beside" aria-label="Problems at things of the drawing" {}
+                ul id="beside" aria-label="Problems of the drawing" {}
             }
             (player())
         }
@@ -130,9 +130,9 @@ fn player() -> Markup {
         div.player id="player" role="group" aria-label="Motion" {
             button type="button" data-part="play" { "Play" }
             input type="range" data-part="range" min="0" max="0" step="1" value="0" aria-label="Position";
-            label.check data-part="again" { input type="checkbox" data-part="loop" checked; " again and again" }
-            button type="button" data-part="home" { "Back to the file's pose" }
-            button type="button" data-part="trace" aria-pressed="false" title="Then click a link: the way of that point is drawn" { "Trace" }
+            label.check data-part="again" { input type="checkbox" data-part="loop" checked; " Loop" }
+            button type="button" data-part="home" { "Back to the drawn pose" }
+            button type="button" data-part="trace" aria-pressed="false" title="Then click a link to trace the path of that point" { "Trace" }
             button type="button" data-part="untrace" hidden { "No traces" }
             label.shown { "Shown " select data-part="shown" {} }
             span.unseen role="status" data-part="say" {}
@@ -143,7 +143,7 @@ fn player() -> Markup {
 fn side() -> Markup {
     html! {
         div id="side" {
-            section id="thing" aria-label="What is selected" hidden {}
+            section id="thing" aria-label="Selection" hidden {}
             section id="verdict" aria-label="Verdict" {
                 div id="states" role="tablist" aria-label="States" {}
                 div id="verdict-panel" role="tabpanel" tabindex="0" aria-label="Verdict" {}

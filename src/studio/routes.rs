@@ -56,12 +56,12 @@ pub(super) fn answer(asked: &Asked, path: &str, room: &Room) -> Reply {
             Err(Refused::Conflict(why)) => Reply::refusal(409, &why),
             Err(why) => Reply::refusal(422, &why.to_string()),
         },
-        _ => Reply::refusal(405, "only GET and POST are answered"),
+        _ => Reply::refusal(405, "only GET and POST are supported"),
     }
 }
 
 fn nothing_here() -> Reply {
-    Reply::refusal(404, "there is nothing at this address")
+    Reply::refusal(404, "nothing exists at this address")
 }
 
 fn get(path: &str, room: &Room) -> Reply {
@@ -93,7 +93,7 @@ fn exported(format: &str, room: &Room) -> Reply {
     let Some(m) = reading.mechanism.clone().filter(|_| !reading.partly) else {
         return Reply::refusal(
             422,
-            "what is not whole yet cannot be exported; see what is missing",
+            "the mechanism is incomplete and cannot be exported; see the problems",
         );
     };
     let subject = || Subject {
@@ -137,8 +137,7 @@ fn exported(format: &str, room: &Room) -> Reply {
 }
 
 fn read<'a, T: Deserialize<'a>>(asked: &'a Asked) -> Result<T, Refused> {
-    serde_json::from_slice(&asked.body)
-        .map_err(|e| Refused::Words(format!("what was sent is not understood: {e}")))
+    serde_json::from_slice(&asked.body).map_err(|e| Refused::Words(format!("invalid request: {e}")))
 }
 
 fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
@@ -195,16 +194,14 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
                 Ok(())
             })
         }
-        _ => Err(Refused::Words(
-            "there is nothing at this address".to_owned(),
-        )),
+        _ => Err(Refused::Words("nothing exists at this address".to_owned())),
     }
 }
 
 fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
     let old = || {
         Refused::Conflict(
-            "the mechanism was changed after these ideas; they are searched anew".to_owned(),
+            "the mechanism was changed after these ideas; the search runs again".to_owned(),
         )
     };
     let found = room.found(asked.revision).ok_or_else(old)?;

@@ -37,7 +37,7 @@ pub(super) fn work(room: &Room) {
         // A flaw in the engine is no reason to lose the window.
         let tried = catch_unwind(AssertUnwindSafe(|| look(room, revision, &m)));
         if tried.is_err() {
-            let words = "the engine failed at this mechanism; please report it with the file. The text is not touched by that.";
+            let words = "the engine failed on this mechanism; report this with the file. The text is unchanged.";
             room.tell(
                 revision,
                 "trouble",

@@ -243,12 +243,12 @@ fn freedoms_that_a_shaky_pose_stops_are_counted() {
     assert!(said.contains(words), "{said}");
 }
 
-/// The planar formula refuses a mechanism that is not planar as it stands, and names the option that makes it so.
+/// The planar formula refuses a mechanism that is not planar, and names the mode that makes it planar.
 #[test]
-fn the_planar_formula_names_the_option_that_it_needs() {
+fn the_planar_formula_names_the_mode_that_it_needs() {
     let formula = ["--method", "count-planar"];
     let refused = run(&[&["analyze", "gripper-10"], &formula[..]].concat());
     assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("--planar"));
+    assert!(text(&refused.stderr).contains("planar mode"));
     out(&[&["analyze", "gripper-10", "--planar"], &formula[..]].concat());
 }

@@ -119,11 +119,11 @@ impl Latch {
 pub enum SwingError {
     /// Damped at or beyond the critical rate.
     #[error(
-        "the damping ratio is {0:.3}; at 1 and above the disc creeps and does not swing: lower the viscous damping"
+        "the damping ratio is {0:.3}; at 1 and above the disc creeps and does not swing; lower the viscous damping"
     )]
     Overdamped(f64),
     /// The values do not describe a disc.
-    #[error("inertia and stiffness must be positive and the damping not negative")]
+    #[error("inertia and stiffness must be positive, and the damping must not be negative")]
     Disc,
 }
 

@@ -20,8 +20,8 @@ use thiserror::Error;
 pub enum PartError {
     /// No state has contacts with a clamped part.
     #[error(
-        "state {state} of {name} has no part between contacts: give a link of role = \"object\", and joints of type fixed, \
-         planar, cylinder-on-plane or sphere-on-plane to it"
+        "state {state} of {name} has no clamped part between contacts; give a link of role = \
+        \"object\", and joints of type fixed, planar, cylinder-on-plane or sphere-on-plane to it"
     )]
     NoPart {
         /// The mechanism.
@@ -31,7 +31,7 @@ pub enum PartError {
     },
     /// A clamped part has another kind of joint.
     #[error(
-        "{object} is held by joint {joint}, which is not a face; name faces only, or take the role \"object\" off the link"
+        "{object} is held by joint {joint}, which is not a face; name only faces, or remove the role \"object\" from the link"
     )]
     Joined {
         /// The clamped part.

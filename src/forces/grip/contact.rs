@@ -108,7 +108,7 @@ impl fmt::Display for Unholdable {
         match *self {
             Unholdable::OutOfReach { reach, pivot } => write!(
                 f,
-                "out of reach: the part's centre is {:.4} mm from a pivot, the axis {:.4} mm; bring the pivots closer",
+                "out of reach: the part's centre is {:.4} mm from a pivot, but the axis is {:.4} mm from it; bring the pivots closer",
                 mm(reach),
                 mm(pivot)
             ),
@@ -128,13 +128,13 @@ impl fmt::Display for Unholdable {
                 half_width,
             } => write!(
                 f,
-                "the levers meet: the middle of one is {:.4} mm from the axis, and {:.4} mm are needed",
+                "the levers collide: the middle of one is {:.4} mm from the axis, but {:.4} mm are needed",
                 mm(clearance),
                 mm(half_width)
             ),
             Unholdable::TipsMeet { tip } => write!(
                 f,
-                "the prisms' tips meet first: they would overlap by {:.4} mm; use shorter faces",
+                "the prisms' tips collide: they would overlap by {:.4} mm; use shorter faces",
                 mm(-2.0 * tip)
             ),
             Unholdable::PivotInPart { reach } => {

@@ -175,7 +175,7 @@ pub enum HoldingError {
     Load,
     /// The solver stopped without a solution.
     #[error(
-        "the force programme ended with {0}; the case is too near the limit of what can be held"
+        "the cone program for the contact forces stopped with {0}; the case is too close to the limit of what can be held"
     )]
     Solver(String),
 }

@@ -74,7 +74,7 @@ pub enum JawError {
     NotAHinge(String),
     /// The mechanism cannot reach the pose.
     #[error(
-        "the mechanism cannot turn lever joint \"{joint}\" by {degrees:.3}° to fit a part of {diameter} m; look at `ozols analyze --stroke`"
+        "the mechanism cannot turn lever joint \"{joint}\" by {degrees:.3}° to fit a part of {diameter} m; check its range with `ozols analyze` over a stroke"
     )]
     OutOfReach {
         /// The lever joint.

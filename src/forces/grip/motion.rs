@@ -14,17 +14,15 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum MotionError {
     /// There is no load to hold.
-    #[error("no load is stated; give [workload.grip] a mass and friction before a motion")]
+    #[error("no load is given; give [workload.grip] a mass and friction before a motion")]
     NoLoad,
     /// The orientation is undetermined.
     #[error(
-        "step {0} of the motion needs gravity in the gripper's axes, columns gx, gy and gz, since the file has it in any direction"
+        "step {0} of the motion needs gravity in the gripper's axes, columns gx, gy and gz, because the file gives gravity in any direction"
     )]
     Gravity(usize),
     /// The part is not one of the diameters studied.
-    #[error(
-        "step {0} of the motion has a part of {1} m, which is not one of the diameters studied"
-    )]
+    #[error("step {0} of the motion has a part of {1} m, which is not one of the given diameters")]
     Diameter(usize, f64),
 }
 

@@ -22,7 +22,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum AssurError {
     /// A pair that is not a drive has fewer than one freedom.
-    #[error("pair \"{pair}\" cannot be a drive; drive a turning or sliding pair")]
+    #[error("pair \"{pair}\" cannot be a drive; drive a revolute or prismatic pair")]
     NotADrive {
         /// The pair.
         pair: String,

@@ -24,8 +24,8 @@ const PARALLEL: f64 = 1e-10;
 pub enum PlanarError {
     /// A joint moves out of the plane.
     #[error(
-        "joint \"{joint}\" moves out of the plane of motion; statics is planar: use revolute, prismatic and slotted \
-         joints in parallel planes, or mode = \"planar\" (--planar)"
+        "joint \"{joint}\" moves out of the plane of motion, but this analysis is planar; use \
+        revolute, prismatic and slotted joints in parallel planes, or mode = \"planar\""
     )]
     NotPlanar {
         /// The joint.
@@ -33,7 +33,7 @@ pub enum PlanarError {
     },
     /// A joint has freedoms in the plane that do not match a turning, sliding or pin-in-slot pair.
     #[error(
-        "joint \"{joint}\" leaves {freedoms} freedoms in the plane; statics knows turning, sliding and pin-in-slot pairs"
+        "joint \"{joint}\" leaves {freedoms} freedoms in the plane; planar statics supports revolute, prismatic and pin-in-slot pairs"
     )]
     Unsupported {
         /// The joint.
@@ -51,8 +51,9 @@ pub enum PlanarError {
     },
     /// Joints are coupled.
     #[error(
-        "joints {coupling} are coupled, and Assur groups and their methods are of links and joints alone; `ozols statics --spatial` \
-         gives the reactions, that of the coupling among them, and with the coupling taken out and both joints driven there are groups"
+        "joints {coupling} are coupled, but Assur groups consist only of links and joints; \
+        compute spatial reactions, which include that of the coupling, or replace the coupling by \
+        drives at both joints"
     )]
     Coupled {
         /// The coupling.

@@ -49,7 +49,7 @@ impl Linkage {
     #[must_use]
     pub fn new(mechanism: PlanarMechanism) -> Linkage {
         let mean = |points: &[[f64; 2]]| {
-            #[allow(clippy::cast_precision_loss, reason = "a few thousand at most")]
+            #[allow(clippy::cast_precision_loss, reason = "at most a few thousand")]
             let n = points.len().max(1) as f64;
             let sum = points.iter().fold([0.0; 2], |s, p| plus(s, 1.0, *p));
             sum.map(|c| c / n)

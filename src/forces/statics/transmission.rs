@@ -18,16 +18,20 @@ pub enum TransmissionError {
     #[error("the mechanism has {0} drives; a transmission ratio needs one")]
     Drives(usize),
     /// The drive has no or several freedoms.
-    #[error("joint \"{0}\" must have one freedom, a turn or a slide, for a transmission ratio")]
+    #[error(
+        "joint \"{0}\" must have one freedom, a rotation or a translation, for a transmission ratio"
+    )]
     Freedoms(String),
     /// The drive cannot move.
     #[error("drive \"{0}\" cannot move in this pose")]
     Stuck(String),
     /// The joint moves independently of the drive.
-    #[error("the speed of joint \"{0}\" does not follow from the drive's")]
+    #[error("the drive does not determine the speed of joint \"{0}\"")]
     Loose(String),
     /// The decomposition failed.
-    #[error("the closure equations have no decomposition; check the coordinates")]
+    #[error(
+        "the closure equations could not be decomposed; check the coordinates for extreme values"
+    )]
     Numeric,
 }
 

@@ -368,7 +368,7 @@ fn added(mut terms: Sparse) -> Sparse {
 
 /// Returns the largest move for a relation of `rows` rows, in errors. With more rows, one is more likely to be far off.
 fn limit(rows: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "rows are three at most")]
+    #[allow(clippy::cast_precision_loss, reason = "at most three rows")]
     let n = rows as f64;
     (3.0 + 1.5 * n).sqrt()
 }

@@ -81,14 +81,14 @@ impl Term {
                 heading: Some("force"),
                 ..AboutTerm::measured(
                     "peak-force",
-                    "the greatest joint force over its type's capacity",
+                    "the greatest joint force divided by the capacity of its type",
                 )
             },
             Term::PeakMoment => AboutTerm {
                 heading: Some("moment"),
                 ..AboutTerm::measured(
                     "peak-moment",
-                    "the greatest joint moment over its type's capacity",
+                    "the greatest joint moment divided by the capacity of its type",
                 )
             },
             // A variant also has a conditioning with its drives free.
@@ -97,7 +97,7 @@ impl Term {
                 heading: Some("cond. held"),
                 ..AboutTerm::measured(
                     "conditioning",
-                    "the smallest singular value over the largest with the drives held, greater being better",
+                    "the smallest singular value divided by the largest, with the drives locked; greater is better",
                 )
             },
             Term::OutputError => AboutTerm {
@@ -109,23 +109,23 @@ impl Term {
                 heading: Some("changed"),
                 csv: false,
                 is_count: true,
-                ..AboutTerm::measured("changes", "joints changed and inserted")
+                ..AboutTerm::measured("changes", "number of joints changed and inserted")
             },
             Term::Cost => AboutTerm {
                 csv: false,
-                ..AboutTerm::measured("cost", "the additive cost")
+                ..AboutTerm::measured("cost", "additive cost")
             },
             Term::Idle => AboutTerm {
                 heading: Some("idle"),
                 is_count: true,
-                ..AboutTerm::measured("idle", "mobility beyond the working one")
+                ..AboutTerm::measured("idle", "mobility in addition to that of the outputs")
             },
             Term::Harmful => AboutTerm {
                 csv: false,
                 is_count: true,
                 ..AboutTerm::measured(
                     "harmful",
-                    "harmful redundant constraints that the searched state adds",
+                    "number of harmful redundant constraints that the searched state adds",
                 )
             },
         }

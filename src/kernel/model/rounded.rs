@@ -57,7 +57,7 @@ impl fmt::Display for Rounded {
         write!(f, "the {} has {}", self.place, self.value)?;
         match self.coordinates {
             0 | 1 => Ok(()),
-            n => write!(f, ", and {} more coordinates are like it", n - 1),
+            n => write!(f, ", and {} other coordinates are similar", n - 1),
         }
     }
 }

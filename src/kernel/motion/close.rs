@@ -12,7 +12,7 @@ const STEPS: usize = 60;
 pub enum PoseError {
     /// Newton's method found no closed pose.
     #[error(
-        "the contours do not close: after {steps} steps a gap of {residual:.1e} of the mechanism's size is left"
+        "the loops do not close: after {steps} steps a gap of {residual:.1e} of the mechanism's size is left"
     )]
     Open {
         /// Number of steps taken.

@@ -40,17 +40,19 @@ const BALL: f64 = 0.7;
 #[non_exhaustive]
 pub enum Why {
     /// The mechanism moves, and the drive does not.
-    #[error("dead point of this drive: the other joints can move on, the drive only back")]
+    #[error(
+        "dead point: from here this drive can only move back, although the other joints can continue"
+    )]
     DeadPoint,
     /// No motion with the other drives held.
-    #[error("nothing can move while the other drives are held")]
+    #[error("nothing can move while the other drives are locked")]
     Locked,
     /// Motions on several branches.
-    #[error("singular pose: branches of the motion cross or end here, and none goes on smoothly")]
+    #[error("singular pose: branches of the motion cross or end here, and none continues smoothly")]
     Singular,
     /// First-order motions that no pose follows, although the singular values show no irregularity.
     #[error(
-        "the motion in this pose is instantaneous only: no pose next to it closes on this branch (a shaky pose, or a cusp)"
+        "the motion in this pose is instantaneous only: no pose next to it closes on this branch (a shaky pose or a cusp)"
     )]
     Instantaneous,
 }

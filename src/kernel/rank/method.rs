@@ -74,10 +74,10 @@ impl Certainty {
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
-            Certainty::Counted => "counted, whatever the geometry".to_owned(),
+            Certainty::Counted => "counted, independent of the geometry".to_owned(),
             Certainty::Exact => "exact arithmetic".to_owned(),
             Certainty::Proven { .. } => {
-                "exact geometry; rank proven by a checked certificate (--certificate), and the same modulo two primes"
+                "exact geometry; rank proven by a checked certificate, and the same modulo two primes"
                     .to_owned()
             }
             Certainty::Modular { .. } => {
@@ -98,8 +98,8 @@ impl Certainty {
                 kept,
                 dropped,
             } => format!(
-                "undecided: rank {as_written} as written, {near} if digits are left over from rounding (singular values \
-                 {kept:.1e} above the gap, {dropped:.1e} below it)"
+                "undecided: rank {as_written} as written, {near} if the last digits are rounding \
+                errors (singular values {kept:.1e} above the gap, {dropped:.1e} below it)"
             ),
         }
     }

@@ -154,8 +154,8 @@ pub(crate) fn rank_with_tolerance(
 
 const CUBIC: &str = "O(6k f min(6k, f))";
 const BY_PIVOTS: &str =
-    "right at this pose where the pivots stay clear of the tolerance, for coordinates near 1";
-const BY_DIAGONAL: &str = "right at this pose where the diagonal entries of R stay clear of the tolerance, for coordinates near 1";
+    "right at this pose if the pivots are clear of the tolerance, for coordinates near 1";
+const BY_DIAGONAL: &str = "right at this pose if the diagonal entries of R are clear of the tolerance, for coordinates near 1";
 const OF_LU: &str = "Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9";
 const OF_QR: &str = "Golub & Van Loan, Matrix Computations, 2013, 5.4.2";
 
@@ -202,8 +202,8 @@ impl MobilityMethod for Elimination {
                 name: "svd",
                 title: "f64 singular values",
                 help: "Singular values in double precision, with the gap",
-                guarantee: "right at this pose where the gap in the singular values holds the tolerance",
-                complexity: "O(6k f min(6k, f)), some 10 times LU",
+                guarantee: "right at this pose if the gap in the singular values contains the tolerance",
+                complexity: "O(6k f min(6k, f)), about 10 times LU",
                 source: "Golub & Van Loan, Matrix Computations, 2013, 5.5.8",
                 rank: RankOfJ::Numeric,
             },

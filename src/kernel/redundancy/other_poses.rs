@@ -85,25 +85,24 @@ impl Where {
                 "over the motion through this pose (followed numerically)".to_owned()
             }
             Where::Seen { poses, limited } => format!(
-                "at this pose and in {}{} (numeric), not proven over the motion",
+                "at this pose and in {}{} (numeric); not proven for the rest of the motion",
                 plural(poses, "further closed pose"),
                 limits(limited)
             ),
-            Where::Rigid => "at this pose, and no loop moves".to_owned(),
+            Where::Rigid => "at this pose; no loop moves".to_owned(),
             Where::Shaky => {
-                "at this pose only: it is a shaky one, where more seems to move than does"
-                    .to_owned()
+                "at this pose only: it is shaky, so more seems to move than does".to_owned()
             }
             Where::Pose {
                 elsewhere,
                 poses,
                 limited,
             } => format!(
-                "at this pose; elsewhere on the motion {elsewhere}, by {}{} (numeric)",
+                "at this pose; elsewhere in the motion {elsewhere}, by {}{} (numeric)",
                 plural(poses, "closed pose"),
                 limits(limited)
             ),
-            Where::Unknown => "at this pose; over the motion it is not known".to_owned(),
+            Where::Unknown => "at this pose; not determined for the rest of the motion".to_owned(),
         }
     }
 }

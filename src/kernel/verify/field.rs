@@ -34,7 +34,7 @@ pub(super) fn check(matrix: &MatrixOverRing, claim: &FieldClaim) -> Result<(), F
     if claim.witnesses.len() != ring.generators() - first {
         return Err(Flaw::NotAField {
             generator: first + claim.witnesses.len().min(ring.generators() - first),
-            why: "the witnesses are not one for each root",
+            why: "the number of witnesses differs from the number of roots",
         });
     }
     for (generator, witness) in (first..).zip(&claim.witnesses) {

@@ -8,7 +8,7 @@ use thiserror::Error;
 pub enum Flaw {
     /// It is for a matrix of another size.
     #[error(
-        "it is about a {} x {} matrix, and this one is {} x {}", claimed[0], claimed[1], actual[0], actual[1]
+        "it is for a {} x {} matrix, but this one is {} x {}", claimed[0], claimed[1], actual[0], actual[1]
     )]
     Shape {
         /// Stated rows and columns.
@@ -83,7 +83,7 @@ pub enum Flaw {
         prime: u64,
     },
     /// The number of kernel vectors does not match the rank.
-    #[error("{given} kernel vectors are given where {wanted} are needed")]
+    #[error("{given} kernel vectors are given, but {wanted} are needed")]
     KernelCount {
         /// Number of vectors required.
         wanted: usize,

@@ -162,7 +162,7 @@ fn what_cannot_be_done_is_said() {
             "a mirror image needs a slide",
         ),
         ("build --options glue -o DB", "cylindrical"),
-        ("build --shard 3/2 -o DB", "a part is written"),
+        ("build --shard 3/2 -o DB", "write a part as"),
         ("show DB nothing", "no structure nothing"),
         ("show DB 4-", "the beginning of 2 structures"),
         ("merge DB -o DB", "one of the parts and the whole"),

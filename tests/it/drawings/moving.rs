@@ -172,7 +172,7 @@ fn what_cannot_be_drawn_is_said() {
         draw jansen-leg --motion --stroke 0:90deg:9999 | 2 to 600
         draw jansen-leg --motion --drive 9-9 | no joint 9-9
         draw gripper-10 --motion --state clamped | 0-1:tz cannot move
-        draw wren-platform --motion --drive 0-l0 | --drive 0-l0:rx or --drive 0-l0:ry or --drive 0-l0:rz
+        draw wren-platform --motion --drive 0-l0 | 0-l0:rx or 0-l0:ry or 0-l0:rz
         draw wren-platform --motion --drive 0-l0:tx | these can move: 0-l0:rx, 0-l0:ry, 0-l0:rz
         draw gripper-10 --view z | --kind kinematic
         draw gripper-10 --kind kinematic --view w | x, y, z, iso

@@ -129,6 +129,6 @@ fn what_swings_beside_a_rigid_part_does_not_make_it_say_that_nothing_moves() {
     );
     let (code, said, _) = run_on("analyze", "beside.toml", &text, &[]);
     assert_eq!(code, Some(0));
-    has(&said, "finite mobility 1: joints in no contour");
+    has(&said, "finite mobility 1: joints outside loops");
     assert!(!said.contains("1: nothing moves"), "{said}");
 }

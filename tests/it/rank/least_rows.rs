@@ -71,7 +71,7 @@ fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
     has(
         &text,
         "; all joints move in a plane with normal z (12 of 12 rows, rank 12, σ = 0) or out of it (4 of 12 rows, rank 1, \
-             σ = 11); left out: 8 of 24 rows, redundant whatever the rest",
+             σ = 11); omitted: 8 of 24 rows, redundant in any case",
     );
 }
 
@@ -129,9 +129,9 @@ fn blocks_are_judged_one_by_one() {
     let words = found.words(&m, |c| c.to_string());
     assert_eq!(
         words,
-        "; the joints of contour 0 move in one plane (3), so 3 rows per contour do; the joints of contour 1 move in the turns \
-         about one point (3), so 3 rows per contour do; the joints of contour 2 take all 6 rows per contour; left out: 6 of 18 \
-         rows, redundant whatever the rest"
+        "; the joints of contour 0 move in one plane (3), so 3 rows per contour are enough; the joints of contour 1 move in the turns \
+         about one point (3), so 3 rows per contour are enough; the joints of contour 2 need all 6 rows per contour; omitted: 6 of 18 \
+         rows, redundant in any case"
     );
 }
 
@@ -160,7 +160,7 @@ fn hinges_on_a_flat_sheet_move_out_of_it_alone() {
     let found = check(&m, StateId::FREE);
     assert_eq!(found.rows(), 3);
     let words = found.words(&m, |c| c.to_string());
-    has(&words, "all joints move out of a plane with normal z alone");
+    has(&words, "all joints move only out of a plane with normal z");
 }
 
 /// What self-stresses leave open in the reactions is what rows say: where nothing is redundant in the plane, the forces across
@@ -250,7 +250,7 @@ fn screws_are_not_called_turns() {
     let parallel = words(&[[0, 0], [3, 0], [4, 4], [0, 5]]);
     has(&parallel, "screws of one pitch and slides across them (3)");
     let coaxial = words(&[[2, 1], [2, 1]]);
-    has(&coaxial, "one screw (1), so 1 row per contour does");
+    has(&coaxial, "one screw (1), so 1 row per contour is enough");
 }
 
 /// What is said of all joints is true of all: an arm on the coupler of a four-bar is in no contour, and in no plane with it.
@@ -264,7 +264,7 @@ fn joints_outside_contours_are_not_spoken_for() {
     let words = check(&m, StateId::FREE).words(&m, |c| c.to_string());
     assert!(
         words.starts_with(
-            "; all joints of contours move in one plane (3), so 3 rows per contour do"
+            "; all joints of contours move in one plane (3), so 3 rows per contour are enough"
         ),
         "{words}"
     );

@@ -312,7 +312,7 @@ fn bad_strokes_are_refused() {
         analyze four-bar --stroke 0:1:20000 | 10000 steps
         analyze four-bar --stroke 0:1:2 --drive 9-9 | these can move: 0-1, 1-2
         analyze gripper-10 --stroke 0:10deg:2 | slides
-        analyze door-two-hinges --stroke 0:1:2 | --drive
+        analyze door-two-hinges --stroke 0:1:2 | name the joint that moves
         analyze four-bar --stroke 0:1:2 --method count | auto or svd
         analyze four-bar --drive 0-1 | --stroke
         ",

@@ -398,6 +398,9 @@ fn groups_of_coupled_joints_are_refused_with_a_way_on() {
         let o = crate::common::run(&[&["statics", "geared-gripper"][..], more].concat());
         assert_eq!(o.status.code(), Some(2), "{more:?}");
         let said = crate::common::text(&o.stderr);
-        has_all(&said, &["joints 0-1 ~ 0-4 are coupled", "--spatial"]);
+        has_all(
+            &said,
+            &["joints 0-1 ~ 0-4 are coupled", "spatial reactions"],
+        );
     }
 }

@@ -40,7 +40,7 @@ fn what_is_redundant_at_one_pose_only_is_a_note() {
         &out,
         &[
             "nothing is redundant over the motion; 1 redundant constraint",
-            "elsewhere on the motion 0, by 20 closed poses inside the limits",
+            "elsewhere in the motion 0, by 20 closed poses inside the limits",
             "note: e, row x duplicates",
             "at this pose only",
         ],
@@ -139,7 +139,7 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
         &[
             "4 redundant constraints",
             "2 of them at this pose only",
-            "elsewhere on the motion 2, by 20 closed poses (numeric)",
+            "elsewhere in the motion 2, by 20 closed poses (numeric)",
             "h1 stands at 0 rad, outside its limits 0.698 to 0.873",
         ],
     );

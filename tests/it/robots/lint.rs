@@ -78,7 +78,7 @@ fn lint_tells_a_special_pose_from_the_motion() {
     let rows: Vec<&str> = rows.map(|f| f["row"].word()).collect();
     assert_eq!(rows, ["z", "x"]);
     let (_, out, _) = run_on("lint", "m.xml", &text, &[]);
-    has(&out, "elsewhere on the motion 1");
+    has(&out, "elsewhere in the motion 1");
 }
 
 // Axes that are parallel but for their last digits: nobody can say whether they are meant to be. No command is offered that
@@ -117,7 +117,7 @@ fn text_and_json_say_the_same_of_the_motion() {
         let file = &v["files"][0];
         let lasting = file["redundant_over_motion"].whole();
         let over = file["over_motion"].as_str().unwrap_or_default();
-        if let Some((_, rest)) = over.split_once("elsewhere on the motion ") {
+        if let Some((_, rest)) = over.split_once("elsewhere in the motion ") {
             assert!(rest.starts_with(&format!("{lasting},")), "{over} {lasting}");
         }
         let (_, out, _) = run_on("lint", "m.xml", text, &[]);

@@ -15,14 +15,14 @@ pub enum Unsolved {
     NoConvergence,
     /// The drives cannot move at their speeds.
     #[error(
-        "the drives cannot go at the stated speeds in this pose, a dead point; state another workload.drive_speed, or look at \
-         other poses with --stroke"
+        "the drives cannot move at the given speeds in this pose, a dead point; give another \
+        workload.drive_speed, or analyse other poses"
     )]
     Stuck,
     /// An inertia about a plane's normal is stated, but there is no plane.
     #[error(
-        "link {link} states one number for its inertia, which is about the normal of a plane, and the mechanism moves in \
-         space; give 3 about the axes or 6 of a tensor"
+        "link {link} has one number for its inertia, about the normal of a plane, but the \
+        mechanism moves in space; give 3 about the axes or 6 of a tensor"
     )]
     PlaneInertia {
         /// The link.
@@ -30,8 +30,8 @@ pub enum Unsolved {
     },
     /// The side of a face cannot be determined.
     #[error(
-        "contact {joint} lies in one plane with all that touches {object}, so which way it pushes is open; give {object} a mass \
-         and centre"
+        "contact {joint} lies in one plane with everything that touches {object}, so the \
+        direction of its push is undetermined; give {object} a mass and centre"
     )]
     Side {
         /// The contact.
@@ -41,17 +41,19 @@ pub enum Unsolved {
     },
     /// Contacts that only push cannot be in equilibrium.
     #[error(
-        "no reactions are in equilibrium in which every contact pushes within its friction and its face: the object slips, \
-         lifts off or tilts; drive the jaws harder, or state more friction or larger faces under [[workload.contact]]"
+        "no reactions are in equilibrium in which every contact pushes within its friction and \
+        its face; the clamped part slips, lifts off or tilts; drive the jaws harder, or give more \
+        friction or larger faces under [[workload.contact]]"
     )]
     Loose,
     /// The cone program has no solution.
-    #[error("the programme of contacts that only push ended with {0}; no answer")]
+    #[error("the cone program for the unilateral contacts stopped with {0}; no result")]
     Programme(String),
     /// Loads do work on a motion that no drive holds.
     #[error(
-        "no equilibrium: link {link} would move under the loads, and no drive holds it ({mobility} undriven freedoms); \
-         mark a drive, take the load off, or give the joint less freedom"
+        "no equilibrium: link {link} would move under the loads, and no drive holds it \
+        ({mobility} undriven freedoms); mark a drive, remove the load, or give the joint less \
+        freedom"
     )]
     Moves {
         /// The link that would move fastest.

@@ -14,8 +14,8 @@ use crate::linalg::modp::is_prime;
 pub enum ExactError {
     /// A nested root lies in the field already, and its sign could not be determined.
     #[error(
-        "the nested root sqrt({radicand}) depends on the other roots and angles in a way that is not resolved exactly; \
-         write it without nesting, or give a decimal"
+        "the nested root sqrt({radicand}) depends on the other roots and angles in a way that \
+        cannot be resolved exactly; write it without nesting, or give a decimal"
     )]
     AmbiguousNestedRoot {
         /// The number under the root.
@@ -36,7 +36,7 @@ pub enum ExactError {
         radicand: String,
     },
     /// The angles have no small common denominator.
-    #[error("the angles have no common denominator below 2^44; round them to fewer decimals")]
+    #[error("the angles have no common denominator below 2^44; write them with fewer decimals")]
     AnglesTooFine,
     /// Too many independent square roots.
     #[error(

@@ -29,9 +29,7 @@ pub enum ExprError {
         at: usize,
     },
     /// A character that is not allowed here.
-    #[error(
-        "found {found} at byte {at} where {expected} should stand; correct the expression there"
-    )]
+    #[error("found {found} at byte {at}, but expected {expected}; correct the expression there")]
     Unexpected {
         /// Byte offset.
         at: usize,
@@ -42,8 +40,8 @@ pub enum ExprError {
     },
     /// A word that is not a function, constant or unit.
     #[error(
-        "unknown word `{word}` at byte {at}; known are the functions sqrt, cos, sin, tan and cot, and within their \
-         angles the constant pi and the suffix deg"
+        "unknown word `{word}` at byte {at}; known are the functions sqrt, cos, sin, tan and cot, \
+        and inside their arguments the constant pi and the suffix deg"
     )]
     UnknownWord {
         /// Byte offset.
@@ -58,20 +56,20 @@ pub enum ExprError {
         at: usize,
     },
     /// A decimal exponent beyond [`MAX_EXPONENT`](super::MAX_EXPONENT).
-    #[error("the decimal exponent at byte {at} is beyond 400; choose other units")]
+    #[error("the decimal exponent at byte {at} exceeds 400; choose other units")]
     ExponentOutOfRange {
         /// Byte offset.
         at: usize,
     },
     /// A power beyond [`MAX_POWER`](super::MAX_POWER).
-    #[error("the power at byte {at} is beyond 64; keep the integer after `^` between -64 and 64")]
+    #[error("the power at byte {at} exceeds 64; keep the integer after `^` between -64 and 64")]
     PowerOutOfRange {
         /// Byte offset.
         at: usize,
     },
     /// A divisor of zero.
     #[error(
-        "division by zero at byte {at}: the divisor vanishes (to 60 digits at least); correct the divisor"
+        "division by zero at byte {at} (the divisor is zero to at least 60 digits); use a divisor that is not zero"
     )]
     DivisionByZero {
         /// Byte offset.
@@ -79,7 +77,7 @@ pub enum ExprError {
     },
     /// The square root of a negative number.
     #[error(
-        "square root of a negative number at byte {at}; coordinates are real, check the sign of the radicand"
+        "square root of a negative number at byte {at}; coordinates are real, so check the sign of the radicand"
     )]
     NegativeRoot {
         /// Byte offset.
@@ -98,8 +96,9 @@ pub enum ExprError {
     },
     /// An angle (`pi`, `36deg`) used as a number.
     #[error(
-        "the angle at byte {at} is used as a plain number; `pi` and `deg` may only stand inside cos, sin, tan or cot, \
-         angles may only be added to angles and scaled by rationals, and of lengths only a pitch may have pi"
+        "the angle at byte {at} is used as a plain number; `pi` and `deg` are allowed only inside \
+        cos, sin, tan or cot; angles may only be added to angles and scaled by rationals, and of \
+        all lengths only a pitch may have pi"
     )]
     AngleOutside {
         /// Byte offset.

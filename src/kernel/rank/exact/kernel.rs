@@ -47,19 +47,19 @@ pub enum NoCertificate {
         coordinates: usize,
     },
     /// The computation would take longer than the budget allows.
-    #[error("it takes some {operations} operations, over the budget")]
+    #[error("it needs about {operations} operations, over the budget")]
     TooMuchWork {
         /// Number of operations, done and remaining.
         operations: u64,
     },
     /// The numbers in the kernel are longer than the budget allows.
-    #[error("the numbers in the kernel are not settled after {primes} primes")]
+    #[error("the numbers in the kernel do not settle after {primes} primes")]
     TooManyPrimes {
         /// Number of primes used.
         primes: usize,
     },
     /// Not enough primes split the field.
-    #[error("no prime was found that splits the number field, or shows that it is one")]
+    #[error("no prime was found that splits the number field, or proves that it is a field")]
     NoPrimes,
     /// The certificate has a flaw, which is a bug.
     #[error("the certificate was rejected: {0}; report this with the file")]

@@ -238,8 +238,8 @@ impl MobilityMethod for Modular {
         &About {
             name: "modular",
             title: "rank modulo a prime",
-            help: "Modulo two primes near 2^61, every digit taken at its word",
-            guarantee: "exact at this pose but for primes that divide a minor; a rank modulo a prime is never too large",
+            help: "Modulo two primes near 2^61; every digit is used exactly as written",
+            guarantee: "exact at this pose except for primes that divide a minor; a rank modulo a prime is never too large",
             complexity: "O(k) for chains, trees and grids of bounded width",
             source: "Schwartz 1980 (identities by evaluation); Duff & Reid 1983 (fronts)",
             rank: RankOfJ::Exact,

@@ -70,17 +70,17 @@ impl Proof {
     fn why(self, dimension: usize) -> String {
         match self {
             Proof::Groups => {
-                format!("J has the full rank {dimension} of the groups its contours move in")
+                format!("J has the full rank {dimension} of the displacement groups of its loops")
             }
             Proof::Resting => format!(
-                "with what rests locked, J has the full rank {dimension} of the groups its contours move in"
+                "with the resting joints locked, J has the full rank {dimension} of the displacement groups of its loops"
             ),
-            Proof::Bonds => "chains of joints move in whole groups of displacements".to_owned(),
+            Proof::Bonds => "chains of joints generate whole displacement groups".to_owned(),
             Proof::Multiplicity => {
-                "nothing stops it up to the order beyond which nothing can".to_owned()
+                "no obstruction exists up to the highest order at which one could occur".to_owned()
             }
             Proof::Contours => {
-                "each contour moves as it does at first order, and none holds what others hold"
+                "each loop keeps its first-order motion, and no loop repeats constraints of others"
                     .to_owned()
             }
         }
@@ -168,13 +168,13 @@ impl Finite {
     pub fn describe(&self) -> String {
         let line = match self.how {
             How::Rigid if self.mobility > 0 => {
-                "joints in no contour move freely; links that all their joints leave free in one way do, too; \
-                 nothing more moves, not even instantaneously"
+                "joints outside loops move freely, and so do links that all their joints leave a \
+                common freedom; nothing else moves, not even instantaneously"
                     .to_owned()
             }
-            How::Rigid => "nothing moves even instantaneously".to_owned(),
+            How::Rigid => "nothing moves, not even instantaneously".to_owned(),
             How::Submersion { dimension, by } => {
-                format!("{}, so this pose is a regular one", by.why(dimension))
+                format!("{}, so this pose is regular", by.why(dimension))
             }
             How::Stopped { order, motions } => {
                 let what = match (motions, motions + self.mobility) {
@@ -186,26 +186,26 @@ impl Finite {
                 format!("{what} stopped by {} (a shaky pose)", in_words(order))
             }
             How::Singular { order } => format!(
-                "to {} it passes through this singular pose, and nothing of more freedoms does",
+                "to {} a motion passes through this singular pose, and none with more freedoms does",
                 in_words(order)
             ),
             How::Traced { poses, regular } => format!(
                 "followed numerically through {poses} poses; {}",
                 if regular {
-                    "the pose is a regular one"
+                    "the pose is regular"
                 } else {
-                    "the pose of the file is singular or shaky"
+                    "the drawn pose is singular or shaky"
                 }
             ),
             How::Undecided { from, to } => format!(
-                "undecided: between {from} and {to}; neither proof nor following the motion far enough decides"
+                "undecided: between {from} and {to}; neither a proof nor the numerical continuation decides"
             ),
             How::Rounded { to } => format!(
-                "undecided: between {} and {to}; coordinates are rounded too coarsely to tell a motion from a shaky pose",
+                "undecided: between {} and {to}; coordinates are rounded too coarsely to distinguish a motion from a shaky pose",
                 self.mobility
             ),
             How::Bound { to } => format!(
-                "undecided: between {} and {to}, what moves instantaneously; too large to be followed",
+                "undecided: between {} and {to}, the instantaneous mobility; too large for numerical continuation",
                 self.mobility
             ),
         };

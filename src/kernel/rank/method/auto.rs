@@ -75,7 +75,7 @@ fn line(found: &RankVerdict) -> String {
     };
     let measured = found.rounded.as_ref().is_some_and(|r| r.digits.is_some());
     let why = match &found.rounded {
-        Some(r) if r.pi => format!("pi is no exact number ({r}); "),
+        Some(r) if r.pi => format!("pi is not an exact number ({r}); "),
         Some(r) if measured => format!("coordinates look measured ({r}); "),
         Some(r) if !found.is_as_written() => format!("coordinates look rounded ({r}); "),
         _ => String::new(),
@@ -85,10 +85,10 @@ fn line(found: &RankVerdict) -> String {
         found.tolerance, n.kept, n.dropped
     );
     let both = if found.as_written == found.at_least() {
-        "as written, every digit at its word, the rank is the same".to_owned()
+        "with every digit exactly as written, the rank is the same".to_owned()
     } else {
         format!(
-            "as written, every digit at its word, the rank would be {} (mobility {}) instead of {} (mobility {})",
+            "with every digit exactly as written, the rank would be {} (mobility {}) instead of {} (mobility {})",
             found.as_written,
             found.figures(found.as_written).0,
             found.at_least(),
@@ -103,7 +103,7 @@ fn line(found: &RankVerdict) -> String {
             "exact geometry, so ranks over prime fields; no rounding of the last digits changes them{needed}"
         ),
         Meant::Snapped { moved, .. } => format!(
-            "{why}snapped within the digits ({moved} joints), exact rank then; {gap} agree; {both}"
+            "{why}snapped within the digits ({moved} joints), then exact rank; {gap} agree; {both}"
         ),
         Meant::Near { moved: units, .. } => format!(
             "{why}a geometry with that rank is within {units:.2} units of the last digits; {gap}; {both}"
@@ -121,9 +121,9 @@ impl MobilityMethod for Auto {
         &About {
             name: "auto",
             title: "automatic choice",
-            help: "The cheapest that is certain: exact where the geometry is, as meant within the digits where it is rounded",
-            guarantee: "as the method it chooses, which it names; finite mobility, or undecided",
-            complexity: "one modular rank, and singular values only where coordinates are decimals",
+            help: "The cheapest certain method: exact if the geometry is exact, idealised within the digits if it is rounded",
+            guarantee: "as the chosen method, which is reported; finite mobility, or undecided",
+            complexity: "one modular rank, and singular values only if coordinates are decimals",
             source: "this program",
             rank: RankOfJ::Chosen,
         }

@@ -15,9 +15,9 @@ impl MobilityMethod for Exact {
         &About {
             name: "finite",
             title: "finite mobility, exact geometry",
-            help: "Exact rank, and the mobility that is really there",
-            guarantee: "proven where groups or higher order decide; else followed numerically, or undecided",
-            complexity: "one modular rank; else some ten to some hundred closings of O((6k)² f)",
+            help: "Exact rank, and the finite mobility",
+            guarantee: "proven if groups or higher orders decide; otherwise followed numerically, or undecided",
+            complexity: "one modular rank; otherwise about ten to a few hundred closings of O((6k)² f)",
             source: "Hervé 1978 (groups); Connelly & Whiteley 1996, Müller 2016 (second and higher order); Bates et al. 2009, Wampler, Hauenstein & Sommese 2011 (local dimension)",
             rank: RankOfJ::Exact,
         }

@@ -40,8 +40,8 @@ impl MobilityMethod for Spatial {
         &About {
             name: "count",
             title: "spatial counting",
-            help: "Counting formula in space, 6(n-1) less the constraints",
-            guarantee: "right where no constraint is redundant (σ = 0); otherwise too small by σ",
+            help: "Counting formula in space, 6(n-1) minus the constraints",
+            guarantee: "right if no constraint is redundant (σ = 0); otherwise too small by σ",
             complexity: "O(n + p)",
             source: "Chebychev 1869, Grübler 1917, Kutzbach 1929; Malyshev 1923",
             rank: RankOfJ::NotFound,
@@ -62,8 +62,8 @@ impl MobilityMethod for Planar {
         &About {
             name: "count-planar",
             title: "planar counting",
-            help: "Counting formula in the plane, 3(n-1) less the constraints",
-            guarantee: "right where every joint moves in one plane and no constraint in it is redundant",
+            help: "Counting formula in the plane, 3(n-1) minus the constraints",
+            guarantee: "right if every joint moves in one plane and no constraint in it is redundant",
             complexity: "O(n + p)",
             source: "Chebychev 1869, Grübler 1883",
             rank: RankOfJ::NotFound,
@@ -78,7 +78,7 @@ impl MobilityMethod for Planar {
                 Ok(counted(count(mechanism, state, 3, freedoms)))
             }
             _ => Err(NoAnswer::DoesNotApply(
-                "not every joint moves in one plane; --planar leaves out what moves out of it",
+                "not every joint moves in one plane; use the planar mode, which omits motions out of the plane",
             )),
         }
     }

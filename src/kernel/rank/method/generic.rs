@@ -89,7 +89,7 @@ impl MobilityMethod for Generic {
             name: "generic",
             title: "generic rank (pebble game)",
             help: "The same structure in general position, by a pebble game",
-            guarantee: "right for joints in general position; special geometry (parallel, concurrent, symmetric) is not seen",
+            guarantee: "right for joints in general position; ignores special geometry (parallel, concurrent, symmetric)",
             complexity: "O(D² n · bars)",
             source: "Tay 1984; Lee & Streinu 2008",
             rank: RankOfJ::NotFound,
@@ -98,7 +98,7 @@ impl MobilityMethod for Generic {
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
         if mechanism.couplings_in(state).next().is_some() {
             return Err(NoAnswer::DoesNotApply(
-                "the pebble game has no couplings of joints",
+                "the pebble game does not support couplings of joints",
             ));
         }
         let dim = match mechanism.mode {

@@ -15,8 +15,8 @@ impl MobilityMethod for Loops {
         &About {
             name: "loops",
             title: "sum of contour ranks",
-            help: "Freedoms less the sum of the contours' own ranks",
-            guarantee: "right where contours do not share redundant constraints; too small otherwise, and then dependent on the cycle basis [Gogu 2005]",
+            help: "Freedoms minus the ranks of the separate contours",
+            guarantee: "right if contours do not share redundant constraints; otherwise too small, and dependent on the cycle basis [Gogu 2005]",
             complexity: "O(f) eliminations of six rows",
             source: "Voinea & Atanasiu 1959; Gogu 2005",
             rank: RankOfJ::NotFound,

@@ -157,7 +157,7 @@ impl LeastRows {
         let what = |b: &Block| b.words(mechanism, self.dim);
         let left_out = |rows, of: String| match rows {
             0 => String::new(),
-            rows => format!("; left out: {rows} of {of}, redundant whatever the rest"),
+            rows => format!("; omitted: {rows} of {of}, redundant in any case"),
         };
         let of_all = left_out(self.of - self.rows(), format!("{} rows", self.of));
         let blocks = self
@@ -207,9 +207,9 @@ impl Block {
                 };
                 if inside.rows == 0 {
                     return format!(
-                        "move out of a plane{normal} alone, so {} per contour {}",
+                        "move only out of a plane{normal}, so {} per contour {}",
                         plural(outside.per_contour, "row"),
-                        does(outside.per_contour)
+                        enough(outside.per_contour)
                     );
                 }
                 format!(
@@ -228,10 +228,10 @@ impl Block {
                 format!(
                     "move in {name}, so {} per contour {}",
                     plural(*per_contour, "row"),
-                    does(*per_contour)
+                    enough(*per_contour)
                 )
             }
-            _ => format!("take all {dim} rows per contour"),
+            _ => format!("need all {dim} rows per contour"),
         }
     }
 }
@@ -275,8 +275,8 @@ impl BlockRows {
     }
 }
 
-fn does(n: usize) -> &'static str {
-    if n == 1 { "does" } else { "do" }
+fn enough(n: usize) -> &'static str {
+    if n == 1 { "is enough" } else { "are enough" }
 }
 
 /// Returns J of each block on its own, with the indices of its contours. The joints of a block, ascending, are

@@ -46,7 +46,7 @@ pub fn understood(meant: &Meant) -> String {
         parts.push(format!("{} axes parallel", all.join(" + ")));
     }
     for (kind, what) in [
-        (RelationKind::Coincident, "centres one with another"),
+        (RelationKind::Coincident, "coincident centres"),
         (RelationKind::InPlane, "in a plane with another"),
         (RelationKind::OnLine, "on a line with another"),
         (RelationKind::EqualVectors, "equal vectors"),
@@ -61,7 +61,7 @@ pub fn understood(meant: &Meant) -> String {
         parts.push("no two joints related".to_owned());
     }
     format!(
-        "{}; no number moved by more than {:.2} units of its last digit",
+        "{}; every number moved by at most {:.2} units of its last digit",
         parts.join(", "),
         meant.scene.moved / 2.0
     )

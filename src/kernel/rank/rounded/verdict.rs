@@ -165,8 +165,9 @@ impl RankVerdict {
             )
         });
         format!(
-            "undecided: W = {w}, σ = {sigma} as written, W = {near_w}, σ = {near_sigma} if digits are left over from \
-             rounding{gap}. Write roots or expressions such as \"sqrt(3)/2\", give more digits, or say how far they may be off in a [tolerance] table"
+            "undecided: W = {w}, σ = {sigma} as written, W = {near_w}, σ = {near_sigma} if the \
+            last digits are rounding errors{gap}. Write roots or expressions such as \
+            \"sqrt(3)/2\", give more digits, or give their uncertainty in a [tolerance] table"
         )
     }
 }

@@ -19,7 +19,7 @@ const MOST: usize = 10_000;
 #[non_exhaustive]
 pub enum AskedError {
     /// It is unknown which mechanism is intended.
-    #[error("the motion of {name} over a stroke is not known: {why}")]
+    #[error("the motion of {name} over a stroke is unknown: {why}")]
     Undecided {
         /// Name of the mechanism.
         name: String,
@@ -28,7 +28,7 @@ pub enum AskedError {
     },
     /// The range is in angles, but the drive slides.
     #[error(
-        "--stroke {range:?} is in angles, but the drive slides; give lengths in the file's unit, {unit}"
+        "the stroke {range:?} is in angles, but the drive slides; give lengths in the file's unit, {unit}"
     )]
     Angles {
         /// The range.
@@ -37,10 +37,10 @@ pub enum AskedError {
         unit: &'static str,
     },
     /// The range is too long, or has too many steps.
-    #[error("--stroke goes to at most {MOST} steps and {0:.0} radians or length units")]
+    #[error("a stroke is limited to {MOST} steps and {0:.0} radians or length units")]
     Far(f64),
     /// The joint has no such freedom.
-    #[error("joint {joint} has no freedom{freedom} to be driven in state {state}; {could}")]
+    #[error("joint {joint} has no freedom{freedom} that can be driven in state {state}; {could}")]
     NoFreedom {
         /// The joint.
         joint: String,
@@ -53,7 +53,7 @@ pub enum AskedError {
     },
     /// The joint has several freedoms.
     #[error(
-        "joint {joint} has several freedoms; say which moves: --drive {}", names.join(" or --drive ")
+        "joint {joint} has several freedoms; name the driven one: {}", names.join(" or ")
     )]
     Several {
         /// The joint.
@@ -70,7 +70,7 @@ pub enum AskedError {
         could: String,
     },
     /// Nothing is driven.
-    #[error("{name} has no drive; name the joint that moves with --drive: {could}")]
+    #[error("{name} has no drive; name the joint that moves: {could}")]
     NoDrive {
         /// Name of the mechanism.
         name: String,
@@ -78,7 +78,7 @@ pub enum AskedError {
         could: String,
     },
     /// Only spherical joints could be drives.
-    #[error("{name} has no joint that moves about or along an axis of its own; {could}")]
+    #[error("{name} has no joint with its own axis to move about or along; {could}")]
     Still {
         /// Name of the mechanism.
         name: String,
