@@ -36,10 +36,10 @@ use crate::robots::mechanism::series_of_single_joints::comment;
 use crate::robots::problem::unsupported;
 use std::collections::BTreeMap;
 
-/// The freedoms that a redesign adds to the joints of a mechanism.
+/// Returns the freedoms that a redesign adds to the joints of a mechanism.
 ///
 /// # Errors
-/// Why these are not freedoms of the joints that are there, in words that follow the redesign's name.
+/// Returns the reason if these are not freedoms of existing joints, in words that follow the redesign's name.
 pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, String> {
     if after.joints.len() != before.joints.len() {
         return Err("inserts joints that are not of one joint's kind; choose another".to_owned());
@@ -63,12 +63,12 @@ pub fn releases(before: &Mechanism, after: &Mechanism) -> Result<Vec<Release>, S
     Ok(out)
 }
 
-/// The description with releases made: joints added in series, and couplings left out. All else stays as it is,
-/// byte for byte; comments say why. In an assembly of a CAD program joints get another type, one that the program has; all other
-/// members of an archive stay as they are.
+/// Returns the description with releases applied: joints added in series, and couplings removed. Everything else stays byte for
+/// byte; comments give the reasons. In an assembly of a CAD program joints get another type that the program has; all other
+/// members of an archive stay unchanged.
 ///
 /// # Errors
-/// Where the format cannot say a release at the place it is asked for.
+/// Returns an error if the format cannot represent a release at its place.
 pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<Vec<u8>, ImportError> {
     if imported.origin.is_assembly() {
         return retype::retype(imported, releases);
@@ -76,7 +76,7 @@ pub fn fix(imported: &Imported, releases: &[(Release, String)]) -> Result<Vec<u8
     Ok(in_series(imported, releases)?.into_bytes())
 }
 
-/// The text of the description with joints added in series.
+/// Returns the text of the description with joints added in series.
 fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<String, ImportError> {
     let origin = &imported.origin;
     let mut edits = Edits::new(origin);
@@ -125,7 +125,7 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
 type Free = fn(&Origin, &[Freeing<'_>], &mut Edits<'_>) -> Result<(), ImportError>;
 type Uncouple = fn(&Origin, usize, &str, &mut Edits<'_>) -> Result<(), ImportError>;
 
-/// Where a file beside the description says that the joint is there.
+/// Returns the error for a joint that is defined in a separate file.
 fn beside(origin: &Origin, part: &Part) -> ImportError {
     let element = format!("loop \"{}\"", part.id);
     let why = "it is defined in the file of loop closures";

@@ -128,7 +128,7 @@ pub(in crate::cli) fn tell_doubts(file: &Named, imported: &robots::Imported) {
     }
 }
 
-/// Models a mechanism in the plane of x and y. A coupling of a freedom out of the plane is omitted and reported.
+/// Models a mechanism in the plane of x and y. Couplings of freedoms out of the plane are omitted and reported.
 pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) {
     mechanism.mode = Mode::Planar {
         normal: [0, 0, 1].map(Expr::from),

@@ -95,7 +95,6 @@ impl Loops {
     /// Returns the options of an import that reads the file.
     ///
     /// # Errors
-    ///
     /// Returns an error if the file cannot be read.
     pub(in crate::cli) fn options(&self) -> anyhow::Result<Options> {
         let mut options = Options::default();

@@ -102,7 +102,7 @@ pub(in crate::cli) fn pending() -> bool {
     PENDING.load(Ordering::Relaxed)
 }
 
-/// Marks the signal as handled, because the work it was meant for has ended. The next signal is for the work that follows.
+/// Clears the pending signal, because the work it was meant for has ended. The next signal is for the work that follows.
 pub(in crate::cli) fn answered() {
     PENDING.store(false, Ordering::SeqCst);
 }

@@ -13,8 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Costs are in revolute joints, from 0 to 1e6.
 ///
 /// # Errors
-/// Every problem found, each with its place: what is no TOML, no name of a joint type, of an option of the mechanism or of
-/// `change`, `link` and `harmful`, or no cost.
+/// Returns every problem found, each with its place: invalid TOML, an unknown name (not a joint type, an option of the mechanism,
+/// `change`, `link` or `harmful`), or an invalid cost.
 pub fn costs_from_str(
     name: &str,
     text: &str,

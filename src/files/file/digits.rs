@@ -37,7 +37,7 @@ pub(crate) fn keep(file: &mut MechanismFile, text: &str, json: bool) {
     });
 }
 
-/// Whether the text has a decimal whose last digit, before any exponent, is 0.
+/// Returns true if the text has a decimal whose last digit, before any exponent, is 0.
 fn ends_with_zero(text: &str) -> bool {
     let bytes = text.as_bytes();
     let ends = |i: &usize| {
@@ -55,7 +55,7 @@ fn ends_with_zero(text: &str) -> bool {
 /// What is asked of each number, with its path.
 type Visit<'v> = &'v mut dyn FnMut(&[DocumentStep], &mut Coordinate);
 
-/// Every number that places a joint or a point, or relates two motions; and the parameters these may be made of.
+/// Visits every number that places a joint or a point, or relates two motions, and the parameters that these may contain.
 fn geometry(file: &mut MechanismFile, visit: Visit<'_>) {
     let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
     vector(file.plane_normal.as_mut(), &root("plane_normal"), visit);

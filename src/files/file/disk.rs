@@ -12,10 +12,10 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
+/// Returns the bytes of a file, at most one more than `limit`, so that the caller can report that there are too many.
 ///
 /// # Errors
-/// Where it is no regular file, or cannot be read.
+/// Returns an error if it is not a regular file, or cannot be read.
 pub fn bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     regular(path)?
@@ -24,10 +24,10 @@ pub fn bytes(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The same where nobody else says that there are too many.
+/// Returns the bytes of a file, and an error if there are more than `limit`.
 ///
 /// # Errors
-/// Where it is no regular file, is longer, or cannot be read.
+/// Returns an error if it is not a regular file, is longer, or cannot be read.
 pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     let all = bytes(path, limit)?;
     if all.len() > limit {
@@ -37,19 +37,19 @@ pub fn at_most(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
     }
 }
 
-/// The text of a file.
+/// Returns the text of a file.
 ///
 /// # Errors
-/// As [`at_most`], and where it is no UTF-8.
+/// Returns the errors of [`at_most`], and an error if it is not UTF-8.
 pub fn text(path: &Path, limit: usize) -> io::Result<String> {
     let text = String::from_utf8(at_most(path, limit)?);
     text.map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
-/// An open file that is none of those that never end, or wait for ever to be opened.
+/// Opens a regular file; refuses files that never end or that block when opened.
 ///
 /// # Errors
-/// Where it is none, or cannot be opened.
+/// Returns an error if it is not a regular file, or cannot be opened.
 pub fn regular(path: &Path) -> io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a file"));

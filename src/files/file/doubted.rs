@@ -10,7 +10,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::rounded::ratio::{doubt, doubt_of};
 
-/// What is doubted of the couplings and screws of a mechanism.
+/// Returns the doubtful values of the couplings and screws of a mechanism.
 pub(super) fn doubted(
     file: &MechanismFile,
     m: &Mechanism,
@@ -50,7 +50,7 @@ const SHOWN: usize = 8;
 /// What is guessed of an option at a joint: the direction, what it is taken along, and the key that would state it.
 type Guess = (&'static str, &'static str, &'static str);
 
-/// Each option with guessed directions, told once with the joints where it has them.
+/// Lists each option with guessed directions once, with the joints where it has them.
 pub(crate) fn guessed(
     file: &MechanismFile,
     m: &Mechanism,
@@ -91,7 +91,7 @@ pub(crate) fn guessed(
     told.collect()
 }
 
-/// The name of an option that is offered at a joint, and what is guessed of it there.
+/// Returns the name of an option of a joint and its guessed direction there, or `None` if nothing is guessed.
 fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(String, Guess)> {
     let kind = table.kind.as_deref()?;
     let option = JointType::from_name(kind)?;
@@ -134,7 +134,7 @@ fn of_option(table: &OptionTable, entry: &JointEntry, joint: &Joint) -> Option<(
     Some((name.to_owned(), guess))
 }
 
-/// Whether the axis of a type is the normal of a plane.
+/// Returns true if the axis of a type is the normal of a plane.
 fn faces(of: &JointType) -> bool {
     matches!(
         of,

@@ -11,10 +11,10 @@ pub use differences::differences;
 use serde_json::Value;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 
-/// The text of a file with some changes, one after another.
+/// Returns the text of a file after some changes, one after another.
 ///
 /// # Errors
-/// Where the text is no TOML, or a change names what is not there; then none of them is made.
+/// Returns an error if the text is not TOML, or if a change names a missing item; then no change is made.
 pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut text = text.to_owned();
     let mut document: Option<DocumentMut> = None;
@@ -57,7 +57,7 @@ fn apply(document: &mut DocumentMut, edit: &Edit) -> Result<(), EditError> {
     }
 }
 
-/// The tables of a kind, made where there are none.
+/// Returns the tables of a kind; creates them if there are none.
 fn tables(document: &mut DocumentMut, what: Thing) -> Result<&mut ArrayOfTables, EditError> {
     let entry = document.entry(what.word());
     let item = entry.or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
@@ -82,7 +82,7 @@ fn item<'d>(
     })
 }
 
-/// A name that nothing else of its kind has.
+/// Checks that nothing else of its kind has this name.
 fn free(document: &mut DocumentMut, what: Thing, id: &str) -> Result<(), EditError> {
     if tables(document, what)?.iter().any(|t| id_of(t) == Some(id)) {
         return Err(EditError::Taken {

@@ -47,7 +47,7 @@ pub struct Checked {
 /// That of the contour bases of all states, and O(p²) for p joints.
 ///
 /// # Errors
-/// Every problem found, each with its place, where the file cannot be used.
+/// Returns every problem found, each with its place, if the file cannot be used.
 pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
     read(name, text, |file| {
@@ -91,7 +91,7 @@ fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     out
 }
 
-/// Ids that are not read as they are written.
+/// Finds ids that do not read as they are written.
 fn ids(file: &MechanismFile, out: &mut Found) {
     let links = file.link.iter().map(|l| l.id.as_str()).enumerate();
     let joints = file.joint.iter().map(|j| j.id.as_str()).enumerate();
@@ -104,7 +104,7 @@ fn ids(file: &MechanismFile, out: &mut Found) {
     }
 }
 
-/// Driven joints with several freedoms, of which the file names none.
+/// Finds driven joints with several freedoms for which the file does not name the driven one.
 fn drives(m: &Mechanism, out: &mut Found) {
     for (at, joint) in m.joints.iter().enumerate() {
         let freedoms = joint.joint_type.freedoms();
@@ -130,7 +130,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     length(sub(a, b))
 }
 
-/// Diagonal of the box round the joints, in the file's unit.
+/// Returns the diagonal of the box around the joints, in the file's unit.
 #[must_use]
 pub fn across(m: &Mechanism) -> f64 {
     diagonal(m.joints.iter().map(place))
@@ -155,7 +155,7 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     out.extend(rounded.map(|kind| (root("joint"), kind)));
 }
 
-/// Joints of one link that are all but in one place; where many digits say that coordinates were measured, that is told
+/// Finds joints of one link that are nearly in one place. If many digits show that coordinates were measured, reports that
 /// instead.
 fn places(m: &Mechanism, across: f64, out: &mut Found) {
     if looks_rounded(m).is_some_and(|r| r.digits.is_some()) {
@@ -256,7 +256,7 @@ fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     }
 }
 
-/// The same two links, type, place and axis, in the same states.
+/// Returns true if two joints have the same links, type, place and axis, in the same states.
 fn twins(a: &Joint, b: &Joint) -> bool {
     let same = |x: &[Expr; 3], y: &[Expr; 3]| (0..3).all(|i| x[i].to_f64() == y[i].to_f64());
     a.links.iter().sorted().eq(b.links.iter().sorted())

@@ -13,7 +13,7 @@ pub enum DocumentStep {
     Index(usize),
 }
 
-/// A path further by a key.
+/// Returns a path extended by a key.
 pub(crate) fn key(path: &[DocumentStep], k: &str) -> Vec<DocumentStep> {
     path.iter()
         .cloned()
@@ -21,7 +21,7 @@ pub(crate) fn key(path: &[DocumentStep], k: &str) -> Vec<DocumentStep> {
         .collect()
 }
 
-/// A path further by a place in a list.
+/// Returns a path extended by a place in a list.
 pub(crate) fn index(path: &[DocumentStep], i: usize) -> Vec<DocumentStep> {
     path.iter()
         .cloned()
@@ -61,7 +61,7 @@ impl<'t> Document<'t> {
         parsed.ok()?.value.map(Document::Json)
     }
 
-    /// Bytes of the item at a path, or of the deepest part of the path that exists.
+    /// Returns the bytes of the item at a path, or of the deepest part of the path that exists.
     #[must_use]
     pub fn span(&self, path: &[DocumentStep]) -> Option<Range<usize>> {
         match self {

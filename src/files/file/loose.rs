@@ -4,7 +4,7 @@ use crate::file::read::value::knowing;
 use crate::file::schema::{Coordinate, MechanismFile};
 use std::collections::BTreeSet;
 
-/// The places of joints and of points of interest in numbers; none where an expression is none.
+/// Returns the places of joints and of points of interest as numbers; `None` for those with an invalid expression.
 #[must_use]
 pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     let one = |v: &[Coordinate; 3]| {
@@ -19,7 +19,8 @@ pub fn places(file: &MechanismFile) -> [Vec<Option<[f64; 3]>>; 2] {
     ]
 }
 
-/// The file without the links that no joint joins to the frame, and all that names them; none where nothing is left, or all.
+/// Returns the file without the links that no joint joins to the frame, and without references to them. `None` if nothing is
+/// left, or all.
 #[must_use]
 pub fn connected(file: &MechanismFile) -> Option<MechanismFile> {
     let frame = file

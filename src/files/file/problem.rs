@@ -269,7 +269,7 @@ impl ImportError {
         }
     }
 
-    /// Line and column, from 1, of a byte.
+    /// Returns line and column, from 1, of a byte.
     #[must_use]
     pub(crate) fn line_and_column(&self, at: usize) -> (usize, usize) {
         let before = self.text.get(..at.min(self.text.len())).unwrap_or("");
@@ -280,14 +280,14 @@ impl ImportError {
         )
     }
 
-    /// Whether all that is wrong is that nothing can move.
+    /// Returns true if the only problem is that nothing can move.
     #[must_use]
     pub fn is_rigid(&self) -> bool {
         let rigid = |p: &Problem| matches!(p.kind, ProblemKind::Rigid { .. });
         !self.problems.is_empty() && self.problems.iter().all(rigid)
     }
 
-    /// The problems with the lines they stand on, for a terminal.
+    /// Renders the problems with their lines, for a terminal.
     #[must_use]
     pub fn render(&self, colour: bool) -> String {
         let one = |p: &Problem| {
@@ -299,8 +299,7 @@ impl ImportError {
     }
 }
 
-/// A message about a part of a file, given by its name and text, with the line it stands on; what follows a semicolon
-/// is the remedy.
+/// Renders a message about a part of a file, given by its name and text, with its line; the text after a semicolon is the remedy.
 pub(crate) fn render(
     level: Level<'static>,
     colour: bool,

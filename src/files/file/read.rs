@@ -31,7 +31,7 @@ use search::search;
 use value::LIMITS;
 use value::tolerance::tolerance;
 
-/// The claims of a file; one of an unknown topic is a problem.
+/// Returns the claims of a file; reports those of an unknown topic.
 pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
     let claim = |(at, c): (Place<'_>, &ClaimEntry)| {
         let topic = Topic::ALL.into_iter().find(|t| t.word() == c.topic);
@@ -74,7 +74,7 @@ fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
 /// Builds a mechanism.
 ///
 /// # Errors
-/// The problems found, the first hundred of them.
+/// Returns the first hundred problems found.
 pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let out = knowing(file);
     few_enough(file)?;
@@ -182,7 +182,7 @@ fn expected(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Vec<
     list
 }
 
-/// Whether no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.
+/// Returns true if no state's closure matrix is too large: a row for each constraint of a contour, a column for each freedom.
 fn size(m: &Mechanism, out: &Findings) -> bool {
     let mut fits = true;
     let dim = match m.mode {

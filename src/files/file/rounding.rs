@@ -18,7 +18,7 @@ const DOUBLE: f64 = 1e-12;
 /// Pairs of joints told of.
 const TOLD: usize = 5;
 
-/// What is doubtful.
+/// Returns the doubtful values.
 pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     let mut out = Vec::new();
     if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
@@ -44,8 +44,8 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     out
 }
 
-/// Second axes that are left to the default beside axes that are rounded: they go by the file's x, y and z, so that the same
-/// mechanism turned in space has others.
+/// Returns a warning about second axes that use the default while other axes are rounded. They depend on the file's x, y and z,
+/// so the same mechanism rotated in space has others.
 fn by_default(m: &Mechanism) -> Option<WarningKind> {
     let half = uncertainties(m)?;
     let left = |(j, joint): &(JointId, &Joint)| {
@@ -106,7 +106,7 @@ fn of_verdict(found: &RankVerdict) -> WarningKind {
     }
 }
 
-/// Pairs of joints that are all but parallel, square, coaxial or concurrent, and how far they are from it.
+/// Lists pairs of joints that are nearly parallel, perpendicular, coaxial or concurrent, and their distances from it.
 fn nearly(m: &Mechanism) -> Vec<String> {
     let least = Reach::relative(NEARLY, size(m));
     let within = reach(m).map_or(least, |r| Reach {
@@ -121,7 +121,7 @@ fn nearly(m: &Mechanism) -> Vec<String> {
         .collect()
 }
 
-/// "LF and LR are 0.002 degrees from coaxial"
+/// Describes a pair of joints, such as "LF and LR are 0.002 degrees from coaxial".
 fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
     let strongest = x
         .relations
@@ -144,7 +144,7 @@ fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
     })
 }
 
-/// What says most of two joints.
+/// Ranks relations by how much they state about two joints.
 fn rank(relation: Relation) -> usize {
     match relation {
         Relation::Zero => 0,

@@ -47,10 +47,10 @@ const ADVICE: [(&str, &str); 10] = [
     ),
 ];
 
-/// The text of a mechanism file without what publications say of it, and the figures that hold for it as it is.
+/// Returns the text of a mechanism file without claims of publications and without expected figures.
 ///
 /// # Errors
-/// Where the text is no TOML.
+/// Returns an error if the text is not TOML.
 pub fn plain(text: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
@@ -58,12 +58,12 @@ pub fn plain(text: &str) -> Result<String, TomlError> {
     Ok(document.to_string())
 }
 
-/// The text of a mechanism file under another name, with a comment on every kind of table and key.
+/// Returns the text of a mechanism file under another name, with a comment on every kind of table and key.
 ///
-/// `from` is said to be the mechanism that it was made of. Complexity: one pass over the text.
+/// The comments name `from` as the mechanism it was made from. Complexity: one pass over the text.
 ///
 /// # Errors
-/// Where the text is no TOML.
+/// Returns an error if the text is not TOML.
 pub fn commented(text: &str, from: &str, name: &str) -> Result<String, TomlError> {
     let mut document: DocumentMut = text.parse()?;
     document.remove("claim");
@@ -152,7 +152,7 @@ impl TemplateWriter<'_> {
     }
 }
 
-/// The schema of a key and the path it is known by; keys that the user chooses, such as names of joint types, are `*`.
+/// Returns the schema of a key and its path; keys that the user chooses, such as names of joint types, are `*`.
 fn property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s Value>) {
     let join = |k: &str| match path {
         "" => k.to_owned(),
@@ -164,7 +164,7 @@ fn property<'s>(schema: &'s Value, path: &str, key: &str) -> (String, Option<&'s
     }
 }
 
-/// The definition that a property, the items of its list, or one of its alternatives refers to.
+/// Returns the definition that a property, the items of its list, or one of its alternatives refers to.
 fn resolve<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
     if let Some(reference) = property["$ref"].as_str() {
         let found = root.pointer(reference.trim_start_matches('#'))?;
@@ -181,7 +181,7 @@ fn resolve<'s>(root: &'s Value, property: &'s Value) -> Option<&'s Value> {
         .find_map(|p| resolve(root, p))
 }
 
-/// What a key is and what to edit.
+/// Explains a key and what to edit.
 fn explain(out: &mut String, property: &Value, inner: &Value, path: &str) {
     let own = property["description"].as_str().unwrap_or_default();
     let advice = ADVICE.iter().find(|(p, _)| *p == path);
@@ -199,7 +199,7 @@ fn explain(out: &mut String, property: &Value, inner: &Value, path: &str) {
     }
 }
 
-/// The keys of a table in braces, or of the tables of a list.
+/// Returns the keys of a table in braces, or of the tables of a list.
 fn inline(value: &toml_edit::Value) -> Option<BTreeSet<String>> {
     let keys = |t: &InlineTable| t.iter().map(|(k, _)| k.to_owned()).collect::<BTreeSet<_>>();
     let found: BTreeSet<String> = match value {
@@ -226,7 +226,7 @@ fn inline_keys(out: &mut String, keys: &BTreeSet<String>, schema: &Value) {
     }
 }
 
-/// The keys that none of these tables has.
+/// Lists the keys that none of these tables has.
 fn also<'t>(out: &mut String, schema: &Value, tables: impl Iterator<Item = &'t Table>) {
     let more = unused(schema, tables);
     if !more.is_empty() {
@@ -258,8 +258,7 @@ fn comment(out: &mut String, text: &str) {
     }
 }
 
-/// Puts a comment before what a decoration belongs to: after blank lines and what stands above them, before what the file
-/// says of it already.
+/// Puts a comment before the item of a decoration: after blank lines and earlier text, and before existing comments of the file.
 fn put(decor: &mut Decor, default: &str, words: &str) {
     if words.is_empty() {
         return;

@@ -17,7 +17,7 @@ pub const MAX_BYTES: usize = 4 << 20;
 /// Reads a mechanism from the bytes of a file; names that end in `.json` are JSON, all others TOML.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, each with its place.
 pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, ImportError> {
     mechanism_from_str(name, text_of(name, bytes)?)
 }
@@ -25,7 +25,7 @@ pub fn mechanism_from_bytes(name: &str, bytes: &[u8]) -> Result<Mechanism, Impor
 /// Reads a mechanism from text; names that end in `.json` are JSON, all others TOML.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, each with its place.
 ///
 /// # Examples
 /// ```
@@ -40,7 +40,7 @@ pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportErr
     read(name, text, build)
 }
 
-/// The text in the bytes of a file that is not too large.
+/// Returns the text in the bytes of a file, if the file is not too large.
 pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> {
     let limit = MAX_BYTES;
     if bytes.len() > limit {
@@ -107,7 +107,7 @@ fn values(text: &str, json: bool) -> Option<serde_json::Value> {
     }
 }
 
-/// Whether a file of this name is JSON.
+/// Returns true if a file of this name is JSON.
 pub(crate) fn is_json(name: &str) -> bool {
     std::path::Path::new(name)
         .extension()
@@ -121,7 +121,7 @@ fn from_toml(text: &str) -> Result<MechanismFile, Syntax> {
     toml::from_str(text).map_err(|e| (e.message().trim().replace('\n', ", "), e.span()))
 }
 
-/// What to do about a value that is missing or of another kind.
+/// Appends a remedy to a message about a missing or wrong value.
 fn with_remedy(message: String) -> String {
     // The deserializer's own words speak of its types.
     if message.contains("as i128") {
@@ -178,7 +178,7 @@ fn from_json(text: &str) -> Result<MechanismFile, Syntax> {
 /// Texts of more than one line.
 const PROSE: [&str; 3] = ["description", "sources", "assumed"];
 
-/// Every control character of a file's strings and keys.
+/// Finds every control character in a file's strings and keys.
 ///
 /// # Complexity
 /// The file is written out once as a value.

@@ -213,7 +213,7 @@ impl Warnings {
         self.warnings.sort_by_key(at);
     }
 
-    /// The warnings with the lines they stand on, for a terminal.
+    /// Renders the warnings with their lines, for a terminal.
     #[must_use]
     pub fn render(&self, colour: bool) -> String {
         let one = |d: &Warning| {

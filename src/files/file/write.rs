@@ -26,7 +26,7 @@ use toml_edit::{DocumentMut, Item};
 /// Columns of a comment, without its mark.
 const LONGEST_COMMENT: usize = 110;
 
-/// The file of a mechanism. Options that the file had in common stand at each joint; nothing else is changed.
+/// Returns the file of a mechanism. Options that the file had in common are listed at each joint; nothing else is changed.
 #[must_use]
 pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     let ids = |list: &[JointId]| list.iter().map(|&j| m.joints[j].id.clone()).collect();
@@ -95,7 +95,7 @@ pub struct Comment {
 }
 
 impl Comment {
-    /// Words above the table of a name, the `index`th where there are several.
+    /// Creates a comment above the table of a name, the `index`th if there are several.
     #[must_use]
     pub fn new(table: &'static str, index: usize, text: &str) -> Comment {
         Comment {
@@ -105,7 +105,7 @@ impl Comment {
         }
     }
 
-    /// The words as lines of TOML, a blank one first.
+    /// Returns the words as lines of TOML, starting with a blank one.
     fn lines(&self) -> String {
         let (mut out, mut width) = (String::from("\n#"), 0);
         for word in self.text.split_whitespace() {
@@ -121,10 +121,10 @@ impl Comment {
     }
 }
 
-/// A file as TOML.
+/// Writes a file as TOML.
 ///
 /// # Errors
-/// Never for the file of a validated mechanism, as far as is known.
+/// No error is known for the file of a validated mechanism.
 pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::ser::Error> {
     let text = toml::to_string(&file.json())?;
     if comments.is_empty() {
@@ -143,7 +143,7 @@ pub fn toml(file: &MechanismFile, comments: &[Comment]) -> Result<String, toml::
     Ok(document.to_string())
 }
 
-/// The word for a role.
+/// Returns the word for a role.
 pub(crate) fn role(role: Role) -> Option<&'static str> {
     match role {
         Role::Frame => Some("frame"),
@@ -165,7 +165,7 @@ fn same(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     a.iter().zip(b).all(|(x, y)| x.to_string() == y.to_string())
 }
 
-/// Whether the reference is the one that is understood: x, or y where the axis is along x.
+/// Returns true if the reference is the default: x, or y if the axis is along x.
 fn is_default(f: &Frame) -> bool {
     let unit = |i: usize| [0, 1, 2].map(|k| Expr::from(i64::from(k == i)));
     let size = f.axis.each_ref().map(|c| c.to_f64().abs());
@@ -194,7 +194,7 @@ fn cost(milli: i64) -> f64 {
     milli as f64 / 1000.0
 }
 
-/// The names of states, where any are named.
+/// Returns the names of states, if any are named.
 fn states(m: &Mechanism, of: Option<&Vec<StateId>>) -> Option<Words> {
     of.map(|s| Words::Many(s.iter().map(|&s| m.states[s].clone()).collect()))
 }
@@ -244,7 +244,7 @@ fn coupling(m: &Mechanism, c: &Coupling) -> CouplingEntry {
     }
 }
 
-/// An option: its type alone where the rest is as the joint's own.
+/// Returns the entry of an option: only its type if everything else equals the joint's own.
 fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
     let f = &o.frame;
     let turned = !same(&f.axis, &present.axis);
@@ -319,7 +319,7 @@ fn force(m: &Mechanism, f: &ExternalForce) -> ForceEntry {
     }
 }
 
-/// An entry for each axis that a joint is turned or shifted along; one of no turn where it is neither.
+/// Returns an entry for each axis that a joint is rotated or shifted along, or one of zero rotation if there is none.
 fn misalignment(m: &Mechanism, x: &Misalignment) -> Vec<MisalignmentEntry> {
     let none = x.turn == [0.0; 3] && x.shift == [0.0; 3];
     let entry = |axis: &str, angle, length| MisalignmentEntry {
@@ -346,7 +346,7 @@ fn stiffness(s: Stiffness) -> StiffnessEntry {
     }
 }
 
-/// Masses aside, what the mechanism carries; positions and speeds as plain numbers.
+/// Returns the workload without masses, with positions and speeds as plain numbers.
 fn workload(m: &Mechanism) -> WorkloadEntry {
     let loads = &m.loads;
     let speed = |x: &f64| Quantity::Number(*x);

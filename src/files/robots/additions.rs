@@ -22,7 +22,7 @@ const HARMLESS: &str = "publish camera sensor imu lidar laser gps control drive 
     broadcast torque bumper sonar depth wheel scene physics steer vehicle track trajector group \
     effector state";
 
-/// Returns the text of a child, or nothing where it has none.
+/// Returns the text of a child, or `None` if it has none.
 fn said<'a>(e: Element<'a>, tag: &str) -> Option<&'a str> {
     let found = e.child(tag).map(Element::text);
     found.filter(|t| !t.is_empty())
@@ -42,10 +42,11 @@ pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut 
     robot.couplings.push(Ratio::new(joints, ratio, e));
 }
 
-/// Reads a plugin: one that makes a joint follow another couples them, one that joins links until it is told to let go welds them.
+/// Reads a plugin: one that makes a joint follow another couples them, and one that joins links until it is told to detach welds
+/// them.
 ///
 /// # Errors
-/// Where a multiplier is no number.
+/// Returns an error if a multiplier is not a number.
 pub(crate) fn plugin(
     e: Element<'_>,
     scope: &str,
@@ -77,7 +78,7 @@ pub(crate) fn plugin(
     Ok(())
 }
 
-/// Welds two links where they are drawn; what names a link that is not there is left out, and counted.
+/// Welds two links where they are drawn. A weld of a missing link is omitted and counted.
 fn weld(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut Robot) {
     let [Ok((a, at)), Ok((b, _))] = names.each_ref().map(|n| moves_with(scene, n)) else {
         let [a, b] = names;
@@ -101,8 +102,8 @@ fn weld(e: Element<'_>, names: &[String; 2], scene: &SdfScene<'_>, robot: &mut R
     robot.joints.push(part);
 }
 
-/// Leaves an element of unknown meaning out. It is counted where it could close a loop or couple joints: where its name says so, or
-/// where it names several links or joints of the robot. `own` is the joint that it is a child of, which it may name.
+/// Omits an element of unknown meaning. It is counted if it could close a loop or couple joints: if its name suggests it, or if
+/// it names several links or joints of the robot. `own` is its parent joint, which it may name.
 pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
     let kind = kind(e);
     let has = |words: &str| words.split(' ').any(|w| kind.contains(w));
@@ -124,7 +125,7 @@ pub(crate) fn leave_out(e: Element<'_>, own: Option<&str>, robot: &mut Robot) {
     robot.report.leave_out_joint(&label(e), MOST_ROWS, what);
 }
 
-/// How an element is called in messages: with the kind of plugin that it is.
+/// Returns the name of an element for messages, with the kind of its plugin.
 fn label(e: Element<'_>) -> String {
     match e.attribute("filename") {
         Some(file) => format!("{} ({file})", e.label()),
@@ -132,7 +133,7 @@ fn label(e: Element<'_>) -> String {
     }
 }
 
-/// What says what an element is, in small letters: its name, and the file and class of a plugin.
+/// Returns the texts that identify an element, in lower case: its name, and the file and class of a plugin.
 fn kind(e: Element<'_>) -> String {
     let class = e.attribute("name").filter(|n| n.contains("::"));
     let file = e.attribute("filename");
@@ -144,7 +145,7 @@ fn kind(e: Element<'_>) -> String {
     all.join(" ").to_lowercase()
 }
 
-/// The links and joints that an element and those below it name, but for `own`.
+/// Returns the links and joints that an element and its descendants name, except `own`.
 pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSet<String> {
     let is_known = |word: &str| {
         robot.links.iter().any(|l| l == word) || robot.joints.iter().any(|j| j.id == word)
@@ -160,7 +161,7 @@ pub(crate) fn named(e: Element<'_>, own: Option<&str>, robot: &Robot) -> BTreeSe
     out
 }
 
-/// Drake's ball constraint: a point of one body held to a point of another.
+/// Reads Drake's ball constraint, which fixes a point of one body to a point of another.
 pub(crate) fn ball_constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let mut ends = [(0, RigidMotion::IDENTITY); 2];
     for (end, (body, point)) in ends.iter_mut().zip([("A", "p_AP"), ("B", "p_BQ")]) {

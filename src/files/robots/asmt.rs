@@ -21,7 +21,7 @@ const RESULTS: &str = "TimeSeries";
 /// Labels of joints that contacts have, which hold nothing until parts touch.
 const CONTACT: &str = "Contact";
 
-/// Whether a text is an assembly of OndselSolver, by its first line.
+/// Returns true if a text is an assembly of OndselSolver, judged by its first line.
 pub(crate) fn is_one(text: &[u8]) -> bool {
     HEADS
         .iter()
@@ -33,10 +33,10 @@ pub(crate) fn document(document: &mut Document, name: &str, text: String) -> Rea
     document.read_outline(name, text, 1, RESULTS)
 }
 
-/// The robot that an assembly is.
+/// Reads an assembly as a robot.
 ///
 /// # Errors
-/// The first problem found, with its place.
+/// Returns the first problem found, with its place.
 pub(crate) fn read(
     document: &mut Document,
     root: usize,
@@ -93,7 +93,7 @@ pub(crate) fn read(
     Ok(assembly.robot(robot, options))
 }
 
-/// What a label has, or where it is missing.
+/// Returns the child with a label, or an error if it is missing.
 fn has<'a>(e: Element<'a>, label: &str) -> Read<Element<'a>> {
     let found = e.child(label);
     found.ok_or_else(|| e.fail(None, missing(&called(e), label)))
@@ -103,7 +103,7 @@ fn name(e: Element<'_>) -> Read<&str> {
     Ok(has(e, "Name")?.text())
 }
 
-/// How an element is called in messages: by its label, and by its name where it has one.
+/// Returns the name of an element for messages: its label, and its name if it has one.
 fn called(e: Element<'_>) -> String {
     match e.child("Name").map(Element::text) {
         Some(name) if !name.is_empty() => format!("{} \"{name}\"", e.name()),
@@ -111,7 +111,7 @@ fn called(e: Element<'_>) -> String {
     }
 }
 
-/// The place that a label has within what it stands in.
+/// Returns the pose of a label relative to its parent.
 fn pose(e: Element<'_>) -> Read<RigidMotion> {
     let translation = has(e, "Position3D")?.text_numbers::<3>()?;
     let matrix = has(e, "RotationMatrix")?;
@@ -188,7 +188,7 @@ fn figure(e: Element<'_>, label: &str) -> Read<f64> {
     Ok(x)
 }
 
-/// The distance that a plane is off; 0 where the file says none.
+/// Returns the offset of a plane; 0 if the file gives none.
 fn offset(e: Element<'_>) -> Read<f64> {
     e.child("offset").map_or(Ok(0.0), |_| figure(e, "offset"))
 }

@@ -63,7 +63,7 @@ pub(crate) struct Assembly {
 }
 
 impl Assembly {
-    /// The robot that it is. Notes already in its report stay.
+    /// Converts the assembly to a robot. Notes that are already in its report stay.
     pub(crate) fn robot(&self, mut robot: Robot, options: &Options) -> Robot {
         robot.name.clone_from(&self.name);
         robot.unit = self.unit;
@@ -99,7 +99,7 @@ impl Assembly {
         robot
     }
 
-    /// Which parts a chain of joints ties to the ground; the others are told.
+    /// Returns for each part whether a chain of joints connects it to the ground; the others are reported.
     fn tied(&self, robot: &mut Robot) -> Vec<bool> {
         let mut tied = vec![false; self.parts.len()];
         tied[0] = true;
@@ -178,7 +178,7 @@ impl Assembly {
         }
     }
 
-    /// The largest way between frames of a joint: what lengths are measured against.
+    /// Returns the largest distance between frames of a joint, the scale for lengths.
     fn size(&self) -> f64 {
         let places = self.parts.iter().map(|(_, p)| length(p.translation));
         let frames = self.connections.iter();
@@ -190,7 +190,7 @@ impl Assembly {
         shift > MEET * self.size() || turn > MEET
     }
 
-    /// How well places are known: as well as frames meet that are to meet.
+    /// Returns the accuracy of places: how well frames coincide that should coincide.
     fn known_to(&self, robot: &Robot) -> [f64; 2] {
         let closed = robot.joints.iter().filter_map(|p| p.misfit);
         let closed = closed.filter(|m| !self.is_open(*m));
@@ -258,7 +258,7 @@ fn left_out(c: &Connection, why: &str, robot: &mut Robot) {
     robot.report.leave_out_joint(&element, c.holds.rows(), what);
 }
 
-/// A misfit in words: "0.02 mm and 1.2 degrees".
+/// Describes a misfit, such as "0.02 mm and 1.2 degrees".
 pub(crate) fn words([shift, turn]: [f64; 2], unit: Unit) -> String {
     let number = |x: f64| match x {
         x if x >= 0.095 => format!("{x:.1}"),

@@ -66,7 +66,7 @@ impl Part {
         (!(low - slack..=high + slack).contains(&at)).then_some([at, low, high])
     }
 
-    /// A joint at rest, its axis z.
+    /// Creates a joint at rest with the axis z.
     pub(crate) fn new(
         id: &str,
         links: [usize; 2],
@@ -114,20 +114,20 @@ impl Part {
         })
     }
 
-    /// The joint as an element says.
+    /// Sets the element of the joint.
     pub(crate) fn said_by(mut self, e: Element<'_>) -> Part {
         self.element = Some(e.id);
         self
     }
 
-    /// The joint about or along another axis of its frame.
+    /// Rotates the joint to another axis of its frame.
     pub(crate) fn about(mut self, axis: Vector) -> Part {
         self.axis = axis;
         self.second = perpendicular(axis);
         self
     }
 
-    /// The direction of a freedom in the joint's own frame.
+    /// Returns the direction of a freedom in the joint's own frame.
     pub(crate) fn direction(&self, freedom: Freedom) -> Vector {
         match freedom {
             Freedom::Rz | Freedom::Tz | Freedom::Screw => self.axis,
@@ -142,7 +142,7 @@ pub(crate) fn same_link(e: Element<'_>) -> ImportError {
     e.unsupported("it connects a link to itself", "name two different links")
 }
 
-/// A joint of all six freedoms.
+/// Returns a joint type with all six freedoms.
 pub(crate) fn free() -> JointType {
     use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
     JointType::Custom(vec![Tx, Ty, Tz, Rx, Ry, Rz])
@@ -178,7 +178,7 @@ impl Ratio {
         }
     }
 
-    /// The rate where the leader has a value: the derivative of the polynomial.
+    /// Returns the rate at a value of the leader: the derivative of the polynomial.
     pub(in crate::robots) fn at(&self, value: f64) -> f64 {
         let [two, three, four] = self.higher;
         self.ratio + value * (2.0 * two + value * (3.0 * three + value * 4.0 * four))
@@ -228,7 +228,7 @@ pub(crate) enum Unit {
 }
 
 impl Unit {
-    /// As mechanism files write it.
+    /// Returns its symbol in mechanism files.
     pub(crate) fn symbol(self) -> &'static str {
         match self {
             Unit::Metre => "m",
@@ -284,12 +284,12 @@ impl Robot {
         l
     }
 
-    /// Notes the element that a link is; those of links in between are none.
+    /// Records the element of a link; links inserted between others have none.
     pub(crate) fn said_by(&mut self, link: usize, e: Element<'_>) {
         self.said.insert(e.id, link);
     }
 
-    /// The link or frame of a name.
+    /// Returns the link or frame of a name.
     pub(crate) fn frame(&self, name: &str) -> Option<(usize, RigidMotion)> {
         self.frames.get(name).copied()
     }

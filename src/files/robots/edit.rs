@@ -37,7 +37,7 @@ impl<'a> Edits<'a> {
         }
     }
 
-    /// A name that no element has.
+    /// Returns a name that no element has.
     pub(crate) fn name(&mut self, wanted: &str) -> String {
         let nth = |n| format!("{wanted}_{n}");
         unique(&mut self.names, wanted.to_owned(), nth)
@@ -47,7 +47,7 @@ impl<'a> Edits<'a> {
         &self.origin.document.sources[e.node().source].text
     }
 
-    /// The element as it stands in its file.
+    /// Returns the text of the element in its file.
     pub(crate) fn raw(&self, e: Element<'_>) -> &'a str {
         &self.text(e)[e.node().span.start..end(e)]
     }
@@ -74,7 +74,7 @@ impl<'a> Edits<'a> {
         Ok(())
     }
 
-    /// Lines behind an element, indented as it is.
+    /// Inserts lines after an element, with its indentation.
     pub(crate) fn after(&mut self, e: Element<'_>, lines: &[String]) {
         let (indent, newline) = self.layout(e);
         let text = lines.iter().map(|l| format!("{newline}{indent}{l}"));
@@ -82,13 +82,13 @@ impl<'a> Edits<'a> {
         self.replace(e, end(e)..end(e), text);
     }
 
-    /// Lines as the last children of an element.
+    /// Inserts lines as the last children of an element.
     pub(crate) fn within(&mut self, e: Element<'_>, lines: &[String]) {
         let all = self.children.entry(e.id).or_default();
         all.extend_from_slice(lines);
     }
 
-    /// The blanks before an element in its line, and what its file ends lines with.
+    /// Returns the indentation of an element and the line ending of its file.
     fn layout(&self, e: Element<'_>) -> (&'a str, &'static str) {
         let text = self.text(e);
         let before = &text[..e.node().span.start];
@@ -122,7 +122,7 @@ impl<'a> Edits<'a> {
         }
     }
 
-    /// The text of the description with all edits.
+    /// Returns the text of the description with all edits.
     pub(crate) fn apply(mut self) -> Read<String> {
         self.children();
         let sources = &self.origin.document.sources;
@@ -157,7 +157,7 @@ impl<'a> Edits<'a> {
     }
 }
 
-/// Where an element ends.
+/// Returns the end of an element.
 pub(crate) fn end(e: Element<'_>) -> usize {
     e.node().close.end.max(e.node().span.end)
 }

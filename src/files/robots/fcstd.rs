@@ -30,10 +30,10 @@ const UNKNOWN_ROWS: usize = 5;
 /// Properties that say that a joint has limits.
 const LIMITS: &str = "EnableLengthMin EnableLengthMax EnableAngleMin EnableAngleMax";
 
-/// The robot that the assembly of a document is.
+/// Reads the assembly of a document as a robot.
 ///
 /// # Errors
-/// The first problem found, with its place.
+/// Returns the first problem found, with its place.
 pub(crate) fn read(
     document: &mut Document,
     root: usize,
@@ -108,7 +108,7 @@ fn linked(
     Ok(out)
 }
 
-/// The files that links of a document lead to.
+/// Returns the files that links of a document refer to.
 fn files(document: &Document, root: usize) -> Read<Vec<String>> {
     let objects = Objects::of(document.element(root))?;
     let files = objects.all().filter_map(|o| Some(o.linked()?.0.to_owned()));
@@ -132,7 +132,7 @@ fn below<'a>(objects: &Objects<'a>, of: &Object<'a>, out: &mut Vec<Object<'a>>) 
     }
 }
 
-/// The joints of an assembly, in the order of its groups.
+/// Returns the joints of an assembly, in the order of its groups.
 fn joints<'a>(objects: &Objects<'a>, assembly: &Object<'a>) -> Vec<Object<'a>> {
     let mut all = Vec::new();
     below(objects, assembly, &mut all);
@@ -140,7 +140,7 @@ fn joints<'a>(objects: &Objects<'a>, assembly: &Object<'a>) -> Vec<Object<'a>> {
     all
 }
 
-/// The assembly that is meant: the one that is named, or else the one with most joints.
+/// Returns the chosen assembly: the named one, or else the one with most joints.
 fn chosen<'a>(
     document: &'a Document,
     root: usize,
@@ -251,7 +251,7 @@ impl<'a> Assembling<'a, '_> {
         })
     }
 
-    /// The parts that joints hold; what is grounded is one with what stands still, and gives it its name.
+    /// Returns the parts that joints hold; grounded parts are merged with the ground and name it.
     fn parts(
         &self,
         ended: &[Ended<'a>],
@@ -281,7 +281,7 @@ impl<'a> Assembling<'a, '_> {
         Ok(Parts { parts, place })
     }
 
-    /// The joints whose two ends are known; the others are told.
+    /// Returns the joints whose two ends are known; the others are reported.
     fn ended(&self, robot: &mut Robot) -> Read<Vec<Ended<'a>>> {
         let mut out = Vec::new();
         for joint in &self.joints {
@@ -307,7 +307,7 @@ impl<'a> Assembling<'a, '_> {
         Ok(out)
     }
 
-    /// What stands still; where nothing is grounded, the first part of the first joint.
+    /// Returns the grounded parts, or the first part of the first joint if nothing is grounded.
     fn grounded(&self, ended: &[Ended<'a>], robot: &mut Robot) -> BTreeSet<&'a str> {
         let mut grounded: BTreeSet<&str> = (self.joints.iter())
             .flat_map(|j| j.links("ObjectToGround"))
@@ -326,7 +326,7 @@ impl<'a> Assembling<'a, '_> {
     }
 }
 
-/// The directions that sliders slide along, by the parts they join.
+/// Returns the directions of sliders, by the parts they join.
 fn slides<'a>(ended: &[Ended<'a>]) -> Read<Vec<Slide<'a>>> {
     let mut out = Vec::new();
     for (joint, word, ends) in ended {

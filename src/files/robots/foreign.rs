@@ -86,7 +86,7 @@ static FOREIGN: [Foreign; 38] = [
 /// Refuses a file of a format that is not read, by its first bytes or by its ending, which no mechanism file has.
 ///
 /// # Errors
-/// The name of the format and what to do instead.
+/// Returns the name of the format and the remedy.
 pub fn refuse(name: &str, bytes: &[u8]) -> Result<(), ImportError> {
     let path = std::path::Path::new(name);
     let ending = path

@@ -132,21 +132,21 @@ static FORMATS: [Format; 9] = [
     },
 ];
 
-/// Whether only files read in a format are written in it, with joints changed.
+/// Returns true if a format can only be written from files read in it, with joints changed.
 #[must_use]
 pub fn is_own(word: &str) -> bool {
     written().any(|f| f.word == word && matches!(f.write, Some(FormatWriter::Own)))
 }
 
-/// The formats a mechanism can be written in.
+/// Returns the formats in which a mechanism can be written.
 pub fn written() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|f| f.write.is_some())
 }
 
-/// Writes a mechanism in the format that a word stands for, one of those of [`written`].
+/// Writes a mechanism in the format of the given name, one of those of [`written`].
 ///
 /// # Errors
-/// Where there is no such format, or it cannot say what the mechanism has.
+/// Returns an error if there is no such format, or if it cannot represent the mechanism.
 ///
 /// # Examples
 /// ```
@@ -158,10 +158,10 @@ pub fn write(m: &Mechanism, word: &str) -> Result<String, ExportError> {
     Ok(export(m, word)?.text)
 }
 
-/// The same, with what is lost.
+/// Writes a mechanism and lists what is lost.
 ///
 /// # Errors
-/// As [`write()`].
+/// Returns the errors of [`write()`].
 pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
     let format = written().find(|f| f.word == word);
     match format.and_then(|f| Some((f.name, f.write?))) {
@@ -174,7 +174,7 @@ pub fn export(m: &Mechanism, word: &str) -> Result<FormattedFile, ExportError> {
     }
 }
 
-/// Whether a file of this name is a robot description, by its ending.
+/// Returns true if a file of this name is a robot description, by its ending.
 #[must_use]
 pub fn is_description(name: &str) -> bool {
     std::path::Path::new(name).extension().is_some_and(|e| {
@@ -193,7 +193,7 @@ pub fn begins_description(bytes: &[u8]) -> bool {
         || text.trim_ascii_start().starts_with(b"<")
 }
 
-/// The format of descriptions with a root element, and what reads them.
+/// Returns the format of descriptions with a root element, and its reader.
 pub(crate) fn of_root(element: &str) -> Option<(&'static Format, Describe)> {
     let read = |f: &'static Format| {
         f.read
@@ -203,7 +203,7 @@ pub(crate) fn of_root(element: &str) -> Option<(&'static Format, Describe)> {
     FORMATS.iter().find_map(read)
 }
 
-/// The root elements that can be read, in words.
+/// Lists the root elements that can be read.
 pub(crate) fn roots() -> String {
     let known = FORMATS.iter().filter_map(|f| Some((f.read?.0, f.name)));
     let words: Vec<String> = known

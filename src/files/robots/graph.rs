@@ -8,7 +8,7 @@ use petgraph::dot::{Config, Dot};
 use petgraph::graph::UnGraph;
 use std::fmt::Write;
 
-/// Links as nodes (the frame doubly outlined, outputs filled), joints as edges with their class.
+/// Writes links as nodes (the frame with a double outline, outputs filled) and joints as edges with their class.
 #[must_use]
 pub(super) fn dot(m: &Mechanism) -> String {
     let mut graph: UnGraph<LinkId, JointId> = UnGraph::new_undirected();
@@ -43,7 +43,7 @@ pub(super) fn dot(m: &Mechanism) -> String {
     body.replacen("graph {", &format!("graph {} {{", quoted(&m.name)), 1)
 }
 
-/// A string as DOT takes it.
+/// Quotes a string for DOT.
 fn quoted(text: &str) -> String {
     let inner = text
         .replace('\\', "\\\\")
@@ -64,7 +64,7 @@ const KEYS: [(&str, &str, &str); 8] = [
     ("edge", "axis", "string"),
 ];
 
-/// Links as nodes and joints as edges, with all that bears on the structure as data.
+/// Writes links as nodes and joints as edges, with all data on the structure.
 #[must_use]
 pub(super) fn graphml(m: &Mechanism) -> String {
     let mut out = String::from(
@@ -97,7 +97,7 @@ fn datum(out: &mut String, key: &str, value: &str) {
     let _ = writeln!(out, "      <data key=\"{key}\">{}</data>", escape(value));
 }
 
-/// A joint as an edge of GraphML.
+/// Writes a joint as an edge of GraphML.
 fn edge(out: &mut String, m: &Mechanism, j: &Joint) {
     let [a, b] = j.links.map(|l| escape(&m.links[l].id));
     let _ = writeln!(

@@ -46,10 +46,10 @@ pub struct Imported {
 }
 
 impl Imported {
-    /// The mechanism file as TOML, with comments on what was merged and approximated.
+    /// Returns the mechanism file as TOML, with comments on merged and approximated elements.
     ///
     /// # Errors
-    /// Never, as far as is known.
+    /// No error is known.
     pub fn toml(&self) -> Result<String, ExportError> {
         Ok(write::toml(&self.file, &self.comments)?)
     }
@@ -81,7 +81,7 @@ fn root(
 /// Imports a description. `read` gives the files it includes.
 ///
 /// # Errors
-/// The first problem found, with its place.
+/// Returns the first problem found, with its place.
 pub fn import(
     name: &str,
     bytes: &[u8],
@@ -140,7 +140,7 @@ pub fn import(
     })
 }
 
-/// How well a robot is known: as its reader says, or by the digits of the numbers below its root element.
+/// Returns the accuracy of a robot: from its reader, or from the digits of the numbers below its root element.
 fn tolerance(
     root: Element<'_>,
     robot: &Robot,
@@ -157,7 +157,7 @@ fn tolerance(
     digits::tolerance(root, size(robot), diagonal(at_joints))
 }
 
-/// The robot as the reader of its root element finds it.
+/// Returns the robot that the reader of its root element finds.
 fn described(
     document: &mut Document,
     root: usize,
@@ -179,7 +179,7 @@ fn described(
     Ok((format, robot))
 }
 
-/// Refuses a template whose macros are not expanded: what they stand for is in no element.
+/// Refuses a template whose macros are not expanded, because no element contains their content.
 fn expanded(document: &Document) -> Result<(), ImportError> {
     let all = (0..document.nodes.len()).map(|id| document.element(id));
     let is_macro = |e: &Element<'_>| {
@@ -199,7 +199,7 @@ fn expanded(document: &Document) -> Result<(), ImportError> {
     }
 }
 
-/// The mechanism of a file, to which searches are offered what joints that close loops may become where that can be said.
+/// Returns the mechanism of a file. Joints that close loops get options for searches, if these can be written.
 fn with_offers(
     file: &mut MechanismFile,
     comments: &[Comment],

@@ -39,7 +39,7 @@ pub(crate) fn apply_pose(robot: &mut Robot, options: &Options) -> Result<(), Pro
     Ok(())
 }
 
-/// The frame: the world where something hangs on it, else the link that is no joint's child.
+/// Returns the frame: the world if something is connected to it, otherwise the link that is no joint's child.
 pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, ProblemKind> {
     if let Some(name) = &options.frame {
         return link_of(robot, name);
@@ -92,7 +92,7 @@ pub(crate) fn root_link(robot: &mut Robot, options: &Options) -> Result<usize, P
     Ok(world)
 }
 
-/// The roots beside the frame, but for a world that holds nothing.
+/// Returns the roots other than the frame, except a world that holds nothing.
 fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
     let jointless =
         |l: usize| robot.world == Some(l) && !robot.joints.iter().any(|j| j.links.contains(&l));
@@ -100,7 +100,7 @@ fn loose(robot: &Robot, tree: &Tree) -> Vec<usize> {
     others.filter(|&l| !jointless(l)).collect()
 }
 
-/// Every link must hang on the frame.
+/// Checks that every link is connected to the frame.
 pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
     let loose = loose(robot, tree);
     let loose: Vec<&str> = loose.iter().map(|&l| robot.links[l].as_str()).collect();
@@ -118,7 +118,7 @@ pub(crate) fn held(robot: &Robot, tree: &Tree) -> Result<(), ProblemKind> {
     )))
 }
 
-/// Closes the loops of a robot: as they stand, by moving joints, or not at all where the options say so.
+/// Closes the loops of a robot: as drawn, by moving joints, or not at all if the options ask for that.
 pub(crate) fn close_loops(
     robot: &mut Robot,
     tree: &Tree,
@@ -169,7 +169,7 @@ pub(crate) fn close_loops(
     Ok(())
 }
 
-/// Which joint of the tree moved most from the values before, in words; nothing where none has a value.
+/// Describes the joint of the tree that moved most from the values before; empty if none has a value.
 fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
     let joints = robot.joints.iter().zip(before).enumerate();
     let in_tree = joints.filter(|(j, _)| !tree.loops.contains(j));
@@ -183,7 +183,7 @@ fn moved_most(robot: &Robot, tree: &Tree, before: &[Vec<f64>]) -> String {
     })
 }
 
-/// The loop that is open widest, in words.
+/// Describes the loop with the widest gap.
 fn widest(robot: &Robot, tree: &Tree, size: f64) -> String {
     let unit = robot.unit.symbol();
     let by = |g: &loop_closing::Gap| g.shift.max(g.turn * size);
@@ -199,7 +199,7 @@ fn widest(robot: &Robot, tree: &Tree, size: f64) -> String {
     })
 }
 
-/// The joints of the tree that loops go through, and those that close them.
+/// Returns the joints of the tree in loops, and those that close them.
 fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
     let mut out: BTreeSet<usize> = tree.loops.iter().copied().collect();
     for &j in &tree.loops {
@@ -228,7 +228,7 @@ pub(crate) struct Entries {
     pub(in crate::robots) couplings: Vec<usize>,
 }
 
-/// The entries of the file called `file` of a `format`.
+/// Returns the entries of the file called `file` of a `format`.
 pub(crate) fn entries(
     robot: &mut Robot,
     tree: &Tree,
@@ -276,7 +276,8 @@ pub(crate) fn entries(
     })
 }
 
-/// What is rigidly joined as one body, and the joints between these; those within a body are told and left out.
+/// Merges rigidly joined links to bodies and returns them with the joints between them. Joints within a body are reported and
+/// omitted.
 fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), ProblemKind> {
     let kept = if robot.assembly {
         in_loops(robot, tree)
@@ -309,7 +310,7 @@ fn rigid_bodies(robot: &mut Robot, tree: &Tree) -> Result<(Bodies, Vec<usize>), 
     }
 }
 
-/// No more links and joints than a mechanism file may have.
+/// Checks that there are no more links and joints than a mechanism file may have.
 fn within_limits(links: usize, joints: usize) -> Result<(), ProblemKind> {
     let all = [("links", links, LIMITS.0), ("joints", joints, LIMITS.1)];
     match all.iter().find(|(_, count, limit)| count > limit) {

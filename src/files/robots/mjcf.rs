@@ -124,7 +124,7 @@ fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
     robot.report.drop("actuator", name);
 }
 
-/// Names of the joints that an actuator moves by a fixed tendon.
+/// Returns the names of the joints that an actuator moves by a fixed tendon.
 fn of_tendon<'a>(root: Element<'a>, actuator: Element<'a>) -> Vec<&'a str> {
     let Some(name) = actuator.attribute("tendon") else {
         return Vec::new();
@@ -202,7 +202,7 @@ fn site(e: Element<'_>, w: &Waiting<'_>, context: &mut Context<'_>, robot: &mut 
     Ok(())
 }
 
-/// A body and its joints, in series through links of its own where there are several.
+/// Reads a body and its joints, in series through extra links if there are several.
 fn body<'a>(
     e: Element<'a>,
     parent: usize,
@@ -265,7 +265,7 @@ struct OwnJoint<'a> {
     class: Option<&'a str>,
 }
 
-/// The joints of a body, those in frames in it among them.
+/// Returns the joints of a body, including those in its frames.
 fn own_joints<'a>(
     e: Element<'a>,
     place: RigidMotion,
@@ -291,7 +291,7 @@ fn own_joints<'a>(
     Ok(())
 }
 
-/// The name of a joint: its own, or one made of its body's and its type.
+/// Returns the name of a joint: its own, or one made from its body's and its type.
 fn joint_id(e: Element<'_>, body: &str, word: &str, robot: &Robot) -> Read<String> {
     match e.attribute("name") {
         Some(n) if robot.joints.iter().any(|j| j.id == n) => Err(e.duplicate()),
@@ -357,7 +357,7 @@ fn joint<'a>(
     Ok(part)
 }
 
-/// The direction of a hinge or a slide.
+/// Returns the direction of a hinge or a slide.
 fn axis(e: Element<'_>, look: &Lookup<'_>) -> Read<Vector> {
     let axis = look.vector("axis", Z)?;
     if length(axis) >= 1e-9 {

@@ -67,7 +67,7 @@ pub(crate) fn read(
 /// What is read of worlds.
 const IN_WORLDS: [&str; 4] = ["model", "joint", "frame", "plugin"];
 
-/// Joints and frames that stand in worlds, beside their models; plugins there wait in the scene.
+/// Returns joints and frames in worlds, next to their models; plugins there are stored in the scene.
 fn of_worlds<'a>(root: Element<'a>, scene: &mut SdfScene<'a>) -> Vec<Element<'a>> {
     let mut among = Vec::new();
     for e in root.named("world").flat_map(|w| w.children()) {
@@ -113,7 +113,7 @@ fn models<'a>(
     Ok(())
 }
 
-/// Places of links and frames in the world, and a fixed joint for each link of a static model.
+/// Places links and frames in the world, and adds a fixed joint for each link of a static model.
 fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
     for p in scene.placed.values() {
         if let (Some(l), Some(w)) = (p.link, p.world) {
@@ -134,7 +134,7 @@ fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
     }
 }
 
-/// All joints, what couples them, and Drake's constraints.
+/// Reads all joints, their couplings, and Drake's constraints.
 fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     let far = |p: &Placed<'_>| length(p.raw.translation);
     let size = scene.placed.values().map(far).fold(1e-3, f64::max);
@@ -163,7 +163,7 @@ fn joints(mut scene: SdfScene<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// The pose child: numbers, what it is relative to, and in which unit.
+/// Reads the pose child: its numbers, its reference frame, and its unit.
 pub(crate) fn pose(e: Element<'_>) -> Read<(RigidMotion, Option<&str>)> {
     let Some(p) = e.child("pose") else {
         return Ok((RigidMotion::IDENTITY, None));
@@ -234,7 +234,7 @@ fn model<'a>(
     Ok(())
 }
 
-/// The model's own frame, which is called `__model__` within it; nested models are also known by name.
+/// Adds the model's own frame, which is called `__model__` within it; nested models are also known by name.
 fn own_frame<'a>(
     m: Element<'a>,
     outer: &str,
@@ -262,7 +262,7 @@ fn own_frame<'a>(
     Ok(own)
 }
 
-/// A link of a model whose own frame is `own`.
+/// Reads a link of a model whose own frame is `own`.
 fn link<'a>(
     e: Element<'a>,
     scope: &str,
@@ -302,8 +302,7 @@ fn link<'a>(
     Ok(())
 }
 
-/// Takes in a frame or joint, whose place is relative to `own` where nothing is said; a joint that shares its name has its
-/// frame beside it.
+/// Adds a frame or joint, whose place is relative to `own` by default; a joint that shares its name has its own frame.
 pub(crate) fn named_place<'a>(
     e: Element<'a>,
     scope: &str,

@@ -134,7 +134,7 @@ fn controlled(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// Whether an element names a parent and a child, as a joint does.
+/// Returns true if an element names a parent and a child, like a joint.
 fn has_ends(e: Element<'_>) -> bool {
     let link = |tag: &str| e.child(tag).and_then(|c| c.attribute("link"));
     link("parent").is_some() && link("child").is_some()
@@ -176,7 +176,7 @@ fn constraint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// The joint that closes a loop, by its word.
+/// Returns the joint that closes a loop, by its word.
 fn closing_type(word: &str) -> Option<JointType> {
     Some(match word {
         "revolute" | "continuous" | "hinge" => JointType::Revolute,
@@ -195,7 +195,7 @@ pub(crate) fn origin(e: Element<'_>) -> Read<RigidMotion> {
     place(o)
 }
 
-/// The place that an element with `xyz` and `rpy` gives.
+/// Returns the placement that an element with `xyz` and `rpy` gives.
 fn place(o: Element<'_>) -> Read<RigidMotion> {
     if let Some(q) = o.numbers::<4>("quat_xyzw")? {
         return Ok(RigidMotion::quaternion(
@@ -209,13 +209,13 @@ fn place(o: Element<'_>) -> Read<RigidMotion> {
     ))
 }
 
-/// The link that a child element such as `<parent link="..."/>` names.
+/// Returns the link that a child element such as `<parent link="..."/>` names.
 fn end(e: Element<'_>, tag: &str, robot: &Robot) -> Read<usize> {
     let missing = || e.missing(&format!("<{tag} link=\"...\"/>"));
     named_link(e, e.child(tag).ok_or_else(missing)?, robot)
 }
 
-/// The link that `c`, a child of `e`, names.
+/// Returns the link that `c`, a child of `e`, names.
 fn named_link(e: Element<'_>, c: Element<'_>, robot: &Robot) -> Read<usize> {
     let name = c.required("link")?;
     robot.links.iter().position(|l| l == name).ok_or_else(|| {
@@ -228,7 +228,7 @@ fn axis(e: Element<'_>) -> Read<Vector> {
     e.child("axis").map_or(Ok(X), |a| direction(e, a))
 }
 
-/// The direction that an element of `e` gives, x where it says none.
+/// Returns the direction that an element of `e` gives; x by default.
 fn direction(e: Element<'_>, a: Element<'_>) -> Read<Vector> {
     let v = a.vector("xyz", X)?;
     if length(v) < 1e-9 {
@@ -288,7 +288,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// The limits of a joint, where it has any.
+/// Returns the limits of a joint, if it has any.
 fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
     // What is beyond all numbers that are read, 1e16 say, is no limit.
     let one = |k| match e.attribute(k).map(str::parse::<f64>) {
@@ -300,7 +300,7 @@ fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
     Ok((low < high && finite).then_some((low, high)))
 }
 
-/// `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/><axis/></loop_joint>`.
+/// Reads `<loop_joint name type><link1 link xyz rpy/><link2 link xyz rpy/><axis/></loop_joint>`.
 fn loop_joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     let name = e.required("name")?;
     // A vendor prints its sample with two <link1>: the second is meant to be <link2>.

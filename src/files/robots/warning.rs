@@ -66,7 +66,7 @@ pub struct CadCount {
 }
 
 impl CadCount {
-    /// Six a part less all constraints: W less σ.
+    /// Returns 6 per part minus all constraints: W minus σ.
     #[must_use]
     pub fn freedoms(self) -> i64 {
         let signed = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
@@ -122,26 +122,26 @@ impl Report {
         });
     }
 
-    /// Notes what is taken for granted, though the file does not say it.
+    /// Records an assumption that the file does not state.
     pub(crate) fn assume(&mut self, element: &str, what: impl Into<String>) {
         let what = what.into();
         self.assumed.push(format!("{element}: {what}"));
         self.approximate(element, what);
     }
 
-    /// Notes a coupling of joints that is left out, one row.
+    /// Records a coupling of joints that is omitted, one row.
     pub(crate) fn leave_out_coupling(&mut self, element: &str, what: impl Into<String>) {
         self.coupling_rows += 1;
         self.assume(element, what);
     }
 
-    /// Notes what holds links together and is left out, with as many rows as it may have.
+    /// Records a constraint between links that is omitted, with its largest possible number of rows.
     pub(crate) fn leave_out_joint(&mut self, element: &str, rows: usize, what: impl Into<String>) {
         self.constraint_rows += rows;
         self.assume(element, what);
     }
 
-    /// Returns the rows that are left out of the figures.
+    /// Returns the number of rows omitted from the figures.
     #[must_use]
     pub fn left_out(&self) -> usize {
         self.coupling_rows + self.constraint_rows
@@ -157,7 +157,7 @@ impl Report {
         }
     }
 
-    /// What the description says and the mechanism does not, in a sentence: masses, shapes, limits and the like.
+    /// Describes what the mechanism lacks of the description: masses, shapes, limits and the like.
     #[must_use]
     pub fn left_behind(&self) -> Option<String> {
         let kinds = self
@@ -173,7 +173,7 @@ impl Report {
         (!kinds.is_empty()).then(|| format!("Omitted: {}.", kinds.join(", ")))
     }
 
-    /// The report for people.
+    /// Returns the report as text.
     #[must_use]
     pub fn text(&self, file: &str) -> String {
         let (links, joints) = self.size;
@@ -219,7 +219,7 @@ impl Report {
         out
     }
 
-    /// What keeps the figures from being those of the description: nothing, or some lines.
+    /// Returns the reasons why the figures may differ from those of the description, a line each; empty if there are none.
     #[must_use]
     pub fn doubts(&self) -> String {
         let mut out = String::new();

@@ -69,7 +69,7 @@ impl Node {
         }
     }
 
-    /// A node without attributes: a line of a file that is no XML.
+    /// Creates a node without attributes: a line of a file that is not XML.
     pub(super) fn line(name: &str, source: usize, span: Range<usize>) -> Node {
         Node {
             name: name.to_owned(),
@@ -91,7 +91,7 @@ impl Node {
         self.text.push_str(line);
     }
 
-    /// A copy with an end to its name.
+    /// Returns a copy with a suffix on its name.
     pub(super) fn named_on(&self, suffix: &str) -> Node {
         let mut out = self.clone();
         out.copy = true;
@@ -101,7 +101,8 @@ impl Node {
         out
     }
 
-    /// A frame in the place of the element, with its class, at a place that six numbers of `xyaxes` turn.
+    /// Returns a frame that replaces the element, with its class, at a position and with the orientation of the six numbers of
+    /// `xyaxes`.
     pub(super) fn as_frame(&self, pos: Vector, axes: [f64; 6]) -> Node {
         let words = |v: &[f64]| v.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
         let made = |name: &str, value: String| Attribute {
@@ -128,7 +129,7 @@ pub(crate) struct Document {
     pub(super) nodes: Vec<Node>,
 }
 
-/// Bytes as text.
+/// Returns bytes as text.
 pub(crate) fn utf8(name: &str, bytes: &[u8]) -> Read<String> {
     if bytes.len() > MAX_BYTES {
         return Err(too_large(bytes.len(), MAX_BYTES).in_file(name, "", None));
@@ -171,7 +172,7 @@ fn xml_problem(message: impl std::fmt::Display) -> ProblemKind {
     syntax_problem(format!("{message}; the file is not well-formed XML"))
 }
 
-/// Refuses control characters, which terminals would obey, but for those that lay out the text.
+/// Refuses control characters, which could control a terminal, except those that lay out the text.
 fn no_control(text: &str, layout: &[char]) -> Result<(), Located> {
     let found = text.char_indices();
     let mut found = found.filter(|(_, c)| c.is_control() && !layout.contains(c));

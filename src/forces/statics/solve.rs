@@ -75,8 +75,7 @@ pub(crate) fn is_for_space(error: &PlanarStaticsError) -> bool {
 /// SI; the stroke in `[rad]` or the file's length unit.
 ///
 /// # Errors
-/// Returns a [`StaticsError`] if no pose has a solution. A stroke that ends early gives a [`SolvedReactions`] that is
-/// not complete.
+/// Returns a [`StaticsError`] if no pose has a solution. A stroke that ends early gives a [`SolvedReactions`] that is not complete.
 ///
 /// # Complexity
 /// O(n³) per position in the plane, for n bodies; O((6k)²·f) in space, for k contours and f freedoms.

@@ -54,7 +54,7 @@ impl PairArgs {
         !self.pairs.is_empty()
     }
 
-    /// Counts chains, or also their grippers.
+    /// Counts chains, and optionally their grippers.
     fn count(
         &self,
         links: &RangeInclusive<usize>,

@@ -24,7 +24,7 @@ fn beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
 /// True if the current output may be incomplete.
 static CUT: AtomicBool = AtomicBool::new(false);
 
-/// Marks the output from now on as incomplete.
+/// Marks all further output as incomplete.
 pub(in crate::cli) fn cut_short() {
     CUT.store(true, Ordering::SeqCst);
 }

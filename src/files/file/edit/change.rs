@@ -18,7 +18,7 @@ pub enum Thing {
 }
 
 impl Thing {
-    /// The name of its tables.
+    /// Returns the name of its tables.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {

@@ -7,8 +7,8 @@ use serde_json::{Map, Value};
 /// The keys of a joint that a redesign may change.
 const KEYS: &str = "links type freedoms point axis reference lead pitch drive";
 
-/// The changes that lead from a mechanism to a redesign of it: joints in their order, and what is added behind them. `own` is the
-/// file that is changed, whose joints may list options that the new ones have outgrown.
+/// Returns the changes that lead from a mechanism to a redesign of it: joints in their order, then additions. `own` is the file
+/// to change, whose joints may list options that the new ones exceed.
 #[must_use]
 pub fn differences(
     before: &MechanismFile,
@@ -39,7 +39,7 @@ pub fn differences(
     out
 }
 
-/// What makes one joint of another; its options where the file lists some and the new type has outgrown them.
+/// Returns the changes that turn one joint into another, including its options if the file lists some that the new type exceeds.
 fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> {
     let set = |key: &str, value: Value| Edit::Set {
         what: Thing::Joint,
@@ -64,7 +64,7 @@ fn joint_changes(old: &JointEntry, new: &JointEntry, listed: bool) -> Vec<Edit> 
     out
 }
 
-/// What changes of the symmetries that searches keep, and of the basis of contours.
+/// Returns the changes of the symmetries that searches keep, and of the basis of contours.
 fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
     let put = |path: &[&str], value: Value| Edit::Put {
         path: path.iter().map(|&k| k.to_owned()).collect(),
@@ -87,7 +87,7 @@ fn put_changes(before: &MechanismFile, after: &MechanismFile) -> Vec<Edit> {
     out
 }
 
-/// An entry without what is left at its default.
+/// Returns an entry without values that equal their default.
 fn keys(joint: &JointEntry) -> Map<String, Value> {
     let value = without_nothing(serde_json::to_value(joint).unwrap_or_default());
     let map = match value {

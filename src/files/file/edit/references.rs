@@ -35,7 +35,7 @@ fn id_of(table: &Table) -> Option<&str> {
     table.get("id").and_then(Item::as_str)
 }
 
-/// The joints and points of a link.
+/// Returns the joints and points of a link.
 pub(super) fn of_link(document: &DocumentMut, link: &str) -> Vec<(Thing, String)> {
     let mut out = Vec::new();
     let on = |t: &Table, what: Thing| match what {
@@ -53,7 +53,7 @@ pub(super) fn of_link(document: &DocumentMut, link: &str) -> Vec<(Thing, String)
     out
 }
 
-/// Whether a text names an item: a freedom may stand behind the id of a joint.
+/// Returns true if a text names an item; a freedom may follow the id of a joint.
 fn names(text: &str, id: &str) -> bool {
     text == id
         || text
@@ -123,7 +123,7 @@ fn names_it(v: &Value, id: &str) -> bool {
     }
 }
 
-/// No blanks where the first of a list was taken away.
+/// Removes blanks left over where the first item of a list was removed.
 fn tidy(list: &mut Array) {
     if let Some(first) = list.get_mut(0)
         && first.decor().prefix().and_then(|p| p.as_str()) == Some(" ")

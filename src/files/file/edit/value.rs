@@ -19,7 +19,7 @@ pub(super) fn set(table: &mut Table, key: &str, to: &Json) -> Result<(), EditErr
     Ok(())
 }
 
-/// A value in place of another: as that is written where it is the same, element by element in a list.
+/// Returns a value to replace another, written like the old one where it is the same, element by element in a list.
 fn replaced(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
     if is(old, to) {
         return Ok(old.clone());
@@ -40,7 +40,7 @@ fn replaced(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
     Ok(new)
 }
 
-/// Whether a value says the same.
+/// Returns true if two values are equal.
 fn is(old: &Value, to: &Json) -> bool {
     match (old, to) {
         (Value::String(s), Json::String(t)) => s.value() == t,
@@ -58,7 +58,7 @@ fn is(old: &Value, to: &Json) -> bool {
     }
 }
 
-/// A value as it is written anew. Texts under keys of coordinates that are numbers are written as numbers, digit by digit.
+/// Formats a value. Texts under keys of coordinates that are numbers are written as numbers, digit by digit.
 fn value(key: &str, to: &Json) -> Result<Value, EditError> {
     let wrong = |why| EditError::NoValue {
         what: key.to_owned(),
@@ -93,13 +93,13 @@ fn value(key: &str, to: &Json) -> Result<Value, EditError> {
     })
 }
 
-/// Keys whose values are coordinates or quantities.
+/// Returns true for keys whose values are coordinates or quantities.
 fn is_of_numbers(key: &str) -> bool {
     let keys = "point axis reference centre mass lead pitch ratio force moment gravity plane_normal tolerance";
     keys.split(' ').any(|k| k == key)
 }
 
-/// A number as it is typed.
+/// Parses a typed number.
 fn number(text: &str) -> Option<Value> {
     let text = text.trim();
     let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');

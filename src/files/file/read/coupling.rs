@@ -46,7 +46,7 @@ pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &F
     offered(file, mechanism, out);
 }
 
-/// A freedom by the name of its joint, or joint:freedom.
+/// Returns a freedom by the name of its joint, or joint:freedom.
 fn end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<CoupledFreedom> {
     let whole = mechanism.joint(word).map(|j| (j, None));
     let parts = || {
@@ -61,7 +61,7 @@ fn end(mechanism: &Mechanism, word: &str, at: &Place<'_>) -> Option<CoupledFreed
     found.map_err(|problem| at.add(problem)).ok()
 }
 
-/// The freedom that a word names, or the only one of its joint.
+/// Returns the freedom that a word names, or the only one of its joint.
 fn freedom_of(
     mechanism: &Mechanism,
     joint: JointId,
@@ -107,8 +107,8 @@ fn freedom_of(
     Ok(CoupledFreedom { joint, freedom })
 }
 
-/// Whether a freedom has a coordinate of its own: a ball's turn about one of its axes has none, for the three turns do
-/// not commute.
+/// Returns true if a freedom has a coordinate. A spherical joint's rotation about one of its axes has none, because the three
+/// rotations do not commute.
 fn definite(t: &JointType, freedom: Freedom) -> bool {
     let turns = [Freedom::Rx, Freedom::Ry, Freedom::Rz];
     !turns.contains(&freedom) || !turns.iter().all(|f| t.freedoms().contains(f))
@@ -144,8 +144,8 @@ pub fn coupled_freedoms(mechanism: &Mechanism, j: JointId) -> Vec<Freedom> {
     own.unique().collect()
 }
 
-/// Returns whether an option allows every motion of the present joint with the same rates of the coupled freedoms; always so where
-/// none is coupled.
+/// Returns true if an option allows every motion of the original joint with the same rates of the coupled freedoms, or if none is
+/// coupled.
 #[must_use]
 pub fn keeps_coupled(option: &JointOption, present: &JointOption, coupled: &[Freedom]) -> bool {
     if coupled.is_empty() {

@@ -14,7 +14,7 @@ use itertools::Itertools;
 /// Most states of a mechanism.
 const MOST_STATES: usize = 100;
 
-/// The names of the states, `free` first.
+/// Returns the names of the states, `free` first.
 pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
     let named = file.joint.iter().filter_map(|j| j.state.as_ref());
     let named = named.flat_map(|w| w.list()).cloned();
@@ -88,7 +88,7 @@ fn joint(
     })
 }
 
-/// The links that a joint joins; the first of the file in place of one that is not known.
+/// Returns the links that a joint joins; an unknown link is replaced by the first of the file.
 fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
     let end = |e: usize| {
         at.index(e)
@@ -103,7 +103,7 @@ fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
     ends
 }
 
-/// Whether a joint is driven, and in which freedom where the file names one.
+/// Returns whether a joint is driven, and in which freedom if the file names one.
 fn driven(word: &DriveWord, joint_type: &JointType, at: &Place<'_>) -> (bool, Option<Freedom>) {
     let word = match word {
         DriveWord::Driven(drive) => return (*drive, None),
@@ -118,7 +118,7 @@ fn driven(word: &DriveWord, joint_type: &JointType, at: &Place<'_>) -> (bool, Op
     (true, named)
 }
 
-/// What may be inserted in series with a joint.
+/// Returns the joints that may be inserted in series with a joint.
 fn unloading(
     file: &MechanismFile,
     entry: &JointEntry,

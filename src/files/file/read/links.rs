@@ -41,8 +41,8 @@ pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
     links
 }
 
-/// Where no link is said to be an output, all are that move in the free state: nothing then is idle, and a search keeps all
-/// motions.
+/// Makes all links that move in the free state outputs if no link is marked as one. Then no motion is idle, and a search keeps
+/// all motions.
 fn outputs(file: &MechanismFile, links: &mut [Link]) {
     let is_free = |w: &Words| w.list().iter().any(|s| s == "free");
     let free = file
@@ -57,7 +57,7 @@ fn outputs(file: &MechanismFile, links: &mut [Link]) {
     }
 }
 
-/// Every link must hang on the frame in each state it has joints in.
+/// Checks that every link is connected to the frame in each state in which it has joints.
 pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
     let at = |l: usize| out.key("link").index(l).key("id");
     for (l, link) in mechanism.links_with_ids() {

@@ -22,7 +22,7 @@ fn is_zero(v: &[Expr; 3]) -> bool {
     real(v).iter().all(|x| *x == 0.0)
 }
 
-/// Whether two directions are parallel: exactly for rationals, to 1e-12 of their lengths otherwise.
+/// Returns true if two directions are parallel: exactly for rationals, otherwise to 1e-12 of their lengths.
 fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     let (x, y) = (real(a), real(b));
     let largest = |v: [f64; 3]| v.iter().map(|x| x.abs()).fold(0.0, f64::max);
@@ -85,7 +85,7 @@ pub(crate) fn frame(
     }
 }
 
-/// The type a word and a list of freedoms stand for.
+/// Returns the type that a word and a list of freedoms represent.
 pub(crate) fn joint_type(
     joint: &str,
     kind: &str,
@@ -120,7 +120,7 @@ pub(crate) fn joint_type(
     None
 }
 
-/// The freedoms that words name, each once.
+/// Returns the freedoms that words name, each once.
 fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom> {
     let mut list = Vec::new();
     for (at, w) in at.entries(words) {
@@ -149,7 +149,7 @@ impl Place<'_> {
     }
 }
 
-/// What an option without a name of its own is called.
+/// Returns the name of an option that has no name in the file.
 pub(crate) fn motion_name(joint_type: &JointType) -> String {
     match joint_type {
         JointType::Custom(list) => list.iter().map(|f| f.name()).join("+"),
@@ -157,7 +157,7 @@ pub(crate) fn motion_name(joint_type: &JointType) -> String {
     }
 }
 
-/// An option at a joint's place.
+/// Returns an option at a joint's place.
 pub(crate) fn option(
     joint: &str,
     present: &Frame,
@@ -188,7 +188,7 @@ pub(crate) fn option(
     })
 }
 
-/// The frame of an option: what its table leaves out is as the joint has it.
+/// Returns the frame of an option; values that its table omits are those of the joint.
 fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_>) -> Frame {
     let axis = table.axis.as_ref().map(|v| at.key("axis").direction(v));
     let axis = axis.unwrap_or_else(|| present.axis.clone());
@@ -215,7 +215,7 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
     }
 }
 
-/// Whether one joint allows every motion of another at the same place: exactly, over a prime field; `None` where the
+/// Returns true if one joint allows every motion of another at the same place, computed exactly over a prime field. `None` if the
 /// geometry has no image there.
 pub fn contains(wide: &JointOption, narrow: &JointOption) -> Option<bool> {
     if wide.joint_type == narrow.joint_type && wide.joint_type == JointType::Spherical {

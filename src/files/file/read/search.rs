@@ -15,8 +15,8 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, JointOption, Mechanism, SearchSpec};
 use itertools::Itertools;
 
-/// The options of a joint, the present one first. Options of its own list must contain the present motion; those of
-/// the common list that do not are passed over.
+/// Returns the options of a joint, the original one first. Options of the joint's own list must contain the original motion;
+/// those of the common list that do not are skipped.
 pub(crate) fn options(
     file: &MechanismFile,
     entry: &JointEntry,

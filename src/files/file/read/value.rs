@@ -42,7 +42,7 @@ const UNITS: [LengthUnit; 5] = [
     },
 ];
 
-/// The file's unit of length.
+/// Returns the file's unit of length.
 pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     let symbol = file.length_unit.as_deref().unwrap_or("m");
     let found = UNITS.into_iter().find(|u| u.symbol == symbol);

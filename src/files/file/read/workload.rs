@@ -41,7 +41,7 @@ pub struct WorkloadFile<T> {
 /// Reads `[workload.grip]`; names that end in `.json` are JSON, all others TOML.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, each with its place.
 pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec>, ImportError> {
     let (table, example) = ("grip", "lever-gripper");
     let missing = ProblemKind::NoWorkload { table, example };
@@ -52,7 +52,7 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec
 /// Reads `[workload.drive]`; names that end in `.json` are JSON, all others TOML.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, each with its place.
 pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSpec>, ImportError> {
     let (table, example) = ("drive", "torsion-module");
     let missing = ProblemKind::NoWorkload { table, example };
@@ -63,7 +63,7 @@ pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSp
 /// Reads a file that has workload tables and no mechanism: its name and those of its tables; `None` for other files.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, each with its place.
 pub fn tables_alone(
     name: &str,
     bytes: &[u8],
@@ -81,7 +81,7 @@ pub fn tables_alone(
     })
 }
 
-/// Which of the tables that stand for themselves a file has.
+/// Returns the names of the independent tables that a file has.
 pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
     let tables = [
         ("grip", file.workload.grip.is_some()),

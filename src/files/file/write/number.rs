@@ -11,18 +11,18 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-/// A number where it is a decimal of at most 17 digits, else an expression. So is an exact fraction that as a decimal would
-/// look rounded, and a decimal with zeros at its end, which numbers lose.
+/// Writes a number as a decimal if it has at most 17 digits, otherwise as an expression. An exact fraction whose decimal would
+/// look rounded, and a decimal with trailing zeros, which numbers lose, are also expressions.
 pub(super) fn coordinate(e: &Expr) -> Coordinate {
     written(e, &|d| is_long(d, LONG_LENGTH))
 }
 
-/// The same of a component of a direction.
+/// Writes a component of a direction in the same way.
 pub(super) fn component(e: &Expr) -> Coordinate {
     written(e, &|d| is_long(d, LONG_DIRECTION))
 }
 
-/// The same of the ratio of a coupling.
+/// Writes the ratio of a coupling in the same way.
 pub(super) fn ratio(e: &Expr) -> Coordinate {
     written(e, &|d| doubt(d).is_some())
 }
@@ -31,7 +31,7 @@ fn is_long(decimal: &Expr, least: usize) -> bool {
     matches!(decimal.written(), WrittenNumber::Decimal(d) if d.significant >= least)
 }
 
-/// A number; a fraction that is exact is one where its decimal is `doubtful`.
+/// Writes a number; an exact fraction is written as a fraction if its decimal is `doubtful`.
 fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
     let Some(value) = e.as_rational() else {
         return Coordinate::Expression(e.to_string());
@@ -65,12 +65,12 @@ fn written(e: &Expr, doubtful: &dyn Fn(&Expr) -> bool) -> Coordinate {
     }
 }
 
-/// Whether it is 0 or 1 in size.
+/// Returns true if the number is 0, 1 or -1.
 fn is_chosen(value: &BigRational) -> bool {
     value.is_zero() || value.abs().is_one()
 }
 
-/// A decimal whose last digit is 0, with all its digits.
+/// Returns a decimal whose last digit is 0, with all its digits.
 fn zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
     let WrittenNumber::Decimal(
         digits @ Digits {
@@ -95,7 +95,7 @@ fn zeros(value: &BigRational, written: WrittenNumber) -> Option<String> {
     Some(format!("{sign}{whole}.{fraction}"))
 }
 
-/// The shortest decimal that times `unit` is `value`.
+/// Returns the shortest decimal that times `unit` is `value`.
 fn shortest(value: f64, unit: f64) -> Option<f64> {
     let near = value / unit;
     // A product rounds, so a quotient may be off by a digit in the last place.
@@ -107,17 +107,17 @@ fn shortest(value: f64, unit: f64) -> Option<f64> {
         .find(|x| (x * unit).to_bits() == value.to_bits())
 }
 
-/// A value in SI units, in a file whose unit is `unit` of it, such that it reads back as the very number it was.
+/// Writes a value in SI units for a file whose unit is `unit` of it, so that it reads back as exactly the same number.
 pub(crate) fn number(value: f64, unit: f64) -> Coordinate {
     plain(shortest(value, unit).unwrap_or(value / unit))
 }
 
-/// Three of them.
+/// Writes three values in the same way.
 pub(crate) fn numbers(values: [f64; 3], unit: f64) -> [Coordinate; 3] {
     values.map(|x| number(x, unit))
 }
 
-/// An angle: in degrees where that is exact, else in radians.
+/// Writes an angle in degrees if that is exact, otherwise in radians.
 pub(crate) fn angle(radians: f64) -> Coordinate {
     match shortest(radians, 1f64.to_radians()) {
         Some(degrees) => plain(degrees),
@@ -125,7 +125,7 @@ pub(crate) fn angle(radians: f64) -> Coordinate {
     }
 }
 
-/// A number as people write it.
+/// Writes a number in its usual form.
 pub(crate) fn plain(x: f64) -> Coordinate {
     #[allow(clippy::cast_possible_truncation, reason = "whole and within 2^53")]
     if x.fract() == 0.0 && x.abs() < 2f64.powi(53) {
@@ -134,7 +134,7 @@ pub(crate) fn plain(x: f64) -> Coordinate {
     Coordinate::Decimal(x)
 }
 
-/// What is stated of most numbers of the points, and of all of the directions.
+/// Returns the tolerance of most numbers of the points, and of all of the directions.
 pub(super) fn tolerance(m: &Mechanism) -> Option<ToleranceEntry> {
     let frames = m.joints.iter().map(|j| &j.frame);
     let points = frames.clone().flat_map(|f| &f.point);
@@ -151,7 +151,7 @@ pub(super) fn tolerance(m: &Mechanism) -> Option<ToleranceEntry> {
     })
 }
 
-/// What is stated of a point by itself, where that is not what is stated of the file.
+/// Returns the tolerance of a single point, if it differs from that of the file.
 pub(super) fn point_tolerance(
     point: &[Expr; 3],
     file: Option<&ToleranceEntry>,
@@ -167,7 +167,7 @@ pub(super) fn point_tolerance(
     (of_file != Some(size(&half))).then_some(half)
 }
 
-/// What was multiplied by a length and divided again is off in its last bits.
+/// Removes errors in the last bits of a value that was multiplied by a length and divided again.
 fn short(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }
@@ -179,7 +179,7 @@ fn stated(e: &Expr) -> Option<f64> {
     }
 }
 
-/// The half unit that most have; none where one that would be read as a number has none.
+/// Returns the most common half unit. `None` if a value that would be read as a number has none.
 fn most<'e>(of: impl Iterator<Item = (&'e Expr, Option<f64>)>) -> Option<f64> {
     let mut count: Vec<(f64, usize)> = Vec::new();
     for (e, half) in of {

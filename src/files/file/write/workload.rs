@@ -12,7 +12,7 @@ use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Ranking};
 use std::collections::BTreeMap;
 
-/// The entry of a gripper, lengths in the mechanism's unit.
+/// Returns the entry of a gripper, with lengths in the mechanism's unit.
 pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
     let length = |x: f64| number(x, m.length_unit.metres);
     let mut entry = GripEntry {
@@ -47,7 +47,7 @@ pub(crate) fn grip(m: &Mechanism, spec: &GripSpec) -> GripEntry {
     entry
 }
 
-/// What the gripper must hold, lengths in units of so many metres.
+/// Writes the load of a gripper, with lengths in units of `metres`.
 fn write_load(entry: &mut GripEntry, load: &GripLoad, metres: f64) {
     let plain = |x: f64| -> Coordinate { number(x, 1.0) };
     match load.mass {
@@ -77,7 +77,7 @@ fn write_load(entry: &mut GripEntry, load: &GripLoad, metres: f64) {
     };
 }
 
-/// The entry of a torsional drive, lengths in a unit of so many metres.
+/// Returns the entry of a torsional drive, with lengths in units of `metres`.
 pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
     let length = |x: f64| number(x, metres);
     let plain = |x: f64| -> Coordinate { number(x, 1.0) };
@@ -121,7 +121,7 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
     entry
 }
 
-/// The programme: as a number of swings where it is regular, else step by step.
+/// Writes the programme: as a number of swings if it is regular, otherwise step by step.
 fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
     let swings = steps
         .iter()
@@ -146,7 +146,7 @@ fn programme(entry: &mut DriveEntry, steps: &[ProgrammeStep]) {
     entry.programme = Some(steps.iter().map(word).collect());
 }
 
-/// The entry of a ranking.
+/// Returns the entry of a ranking.
 pub(crate) fn ranking(m: &Mechanism, r: &Ranking) -> RankingEntry {
     let term = |&(term, weight): &(crate::model::ranking::Term, f64)| TermEntry {
         term: term.name().to_owned(),
@@ -166,7 +166,7 @@ pub(crate) fn ranking(m: &Mechanism, r: &Ranking) -> RankingEntry {
     }
 }
 
-/// What the mechanism says its joint types bear; what they cost stands under `[search.costs]`.
+/// Returns the capacities of joint types in the mechanism; their costs are under `[search.costs]`.
 pub(crate) fn joint_types(m: &Mechanism) -> BTreeMap<String, JointTypeEntry> {
     let each = m.joint_types.iter().map(|t| {
         let entry = JointTypeEntry {

@@ -20,7 +20,7 @@ pub(crate) struct Archive {
 }
 
 impl Archive {
-    /// The archive that bytes are, if they are one.
+    /// Returns the archive in the bytes, if they are one.
     pub(crate) fn of(name: &str, bytes: &[u8]) -> Option<Archive> {
         let archive = || Archive {
             name: name.to_owned(),
@@ -38,10 +38,10 @@ impl Archive {
         ZipArchive::new(Cursor::new(&self.bytes[..])).map_err(|e| self.fail(&e))
     }
 
-    /// The bytes of a member, none where there is no such member.
+    /// Returns the bytes of a member, or `None` if it does not exist.
     ///
     /// # Errors
-    /// Where the archive is broken, or the member is larger than a description may be.
+    /// Returns an error if the archive is broken, or if the member is larger than a description may be.
     pub(crate) fn member(&self, member: &str) -> Result<Option<Vec<u8>>, ImportError> {
         let mut archive = self.open()?;
         let found = match archive.by_name(member) {
@@ -63,10 +63,10 @@ impl Archive {
         Ok(Some(out))
     }
 
-    /// The archive with another content of one member; all others stay byte for byte, packed as they are.
+    /// Returns the archive with a new content of one member; all others stay byte for byte, with the same compression.
     ///
     /// # Errors
-    /// Where the archive is broken.
+    /// Returns an error if the archive is broken.
     pub(crate) fn with(&self, member: &str, content: &[u8]) -> Result<Vec<u8>, ImportError> {
         let mut archive = self.open()?;
         let mut out = ZipWriter::new(Cursor::new(Vec::new()));

@@ -10,12 +10,12 @@ use crate::robots::description::{Part, Ratio};
 /// Rates below this share of the other are none.
 const NONE: f64 = 1e-9;
 
-/// Whether it is a belt on equal wheels.
+/// Returns true for a belt on equal wheels.
 fn is_belt(m: &Meeting) -> bool {
     matches!(&m.kind, JointType::Custom(list) if !list.contains(&Freedom::Screw))
 }
 
-/// What is held of how J moves against I, as a number of a velocity at the frame's origin and an angular velocity.
+/// Returns the constrained component of J's motion relative to I, given a velocity at the frame's origin and an angular velocity.
 fn held(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
     let z = m.near.rotation.map(|row| row[2]);
     match &m.kind {
@@ -25,7 +25,7 @@ fn held(m: &Meeting, velocity: Vector, turn: Vector) -> f64 {
     }
 }
 
-/// The rate of what is held where a joint moves its second link at rate 1.
+/// Returns the rate of the constrained component if a joint moves its second link at rate 1.
 fn rate(m: &Meeting, joint: &Part, places: &[RigidMotion]) -> Option<f64> {
     let frame = places[joint.links[0]].then(&joint.sides[0]);
     let d = frame.direction(joint.axis);
@@ -36,7 +36,7 @@ fn rate(m: &Meeting, joint: &Part, places: &[RigidMotion]) -> Option<f64> {
     })
 }
 
-/// The coupling that a joint between two links is, if there is one; `joints` are those that tie parts together.
+/// Returns the coupling that a joint between two links represents, if any; `joints` are those that connect parts.
 pub(crate) fn coupling(
     m: &Meeting,
     [i, j]: [usize; 2],

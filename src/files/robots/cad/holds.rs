@@ -51,7 +51,7 @@ pub(crate) enum Holds {
 const NONE: f64 = 1e-9;
 
 impl Holds {
-    /// A distance of 0 has no gradient: what is meant is that points and lines meet.
+    /// Replaces a distance of 0, which has no gradient, by the condition that points and lines coincide.
     pub(crate) fn settled(self) -> Holds {
         match self {
             Holds::PointPoint(d) if d.abs() < NONE => Holds::Spherical,
@@ -62,7 +62,7 @@ impl Holds {
         }
     }
 
-    /// How many constraints it is.
+    /// Returns the number of constraints.
     pub(crate) fn rows(self) -> usize {
         match self {
             Holds::Fixed => 6,
@@ -80,7 +80,7 @@ impl Holds {
         }
     }
 
-    /// Whether it couples the motions of two other joints.
+    /// Returns true if it couples the motions of two other joints.
     pub(crate) fn couples(self) -> bool {
         matches!(
             self,
@@ -88,7 +88,7 @@ impl Holds {
         )
     }
 
-    /// In words, for reports.
+    /// Returns its name for reports.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Holds::Fixed => "fixed",

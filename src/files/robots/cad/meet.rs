@@ -22,7 +22,7 @@ pub(crate) struct Meeting {
     pub(super) here_only: bool,
 }
 
-/// A frame at a point, with a z and an x made square to it.
+/// Returns a frame at a point, with a z and an x made perpendicular to it.
 fn frame(point: Vector, z: Vector, x: Vector) -> RigidMotion {
     let z = towards(z);
     let x = sub(x, scale(z, dot(x, z)));
@@ -42,7 +42,7 @@ fn axis(m: &RigidMotion, k: usize) -> Vector {
     m.rotation.map(|row| row[k])
 }
 
-/// A frame leant over by the least turn so that its z is another.
+/// Returns a frame rotated by the smallest angle so that its z is a given direction.
 fn leaning(m: &RigidMotion, z: Vector) -> RigidMotion {
     let from = axis(m, 2);
     let about = cross(from, z);
@@ -60,7 +60,8 @@ fn leaning(m: &RigidMotion, z: Vector) -> RigidMotion {
     }
 }
 
-/// The turn of J that is nearest I among those that lie along the same lines: a cosine that must be 0 is so of a flipped part.
+/// Returns the orientation of J that is nearest to I among those along the same lines: a cosine of 0 also holds for a flipped
+/// part.
 fn nearest(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
     let [x, y] = [0, 1].map(|k| {
         let a = axis(j, k);
@@ -69,10 +70,10 @@ fn nearest(i: &RigidMotion, j: &RigidMotion) -> [Vector; 3] {
     frame([0.0; 3], cross(x, y), x).rotation
 }
 
-/// What a joint is at the pose of its frames, given in the world.
+/// Returns the joint that connects two frames at their pose, given in the world.
 ///
 /// # Errors
-/// Why it holds nothing that can be told at this pose, in words.
+/// Returns the reason, in words, if it constrains nothing that can be determined at this pose.
 pub(crate) fn meeting(
     holds: Holds,
     i: &RigidMotion,
@@ -135,7 +136,7 @@ pub(crate) fn meeting(
 }
 
 impl Meeting {
-    /// A joint that is the same at any pose.
+    /// Returns a joint that is the same in any pose.
     pub(super) fn new(kind: JointType, near: RigidMotion, far: RigidMotion) -> Meeting {
         Meeting {
             kind,
@@ -154,7 +155,7 @@ fn here(m: Meeting) -> Meeting {
     }
 }
 
-/// What holds a direction alone.
+/// Returns a joint that constrains only a direction.
 pub(crate) fn parallel() -> JointType {
     use Freedom::{Rz, Tx, Ty, Tz};
     JointType::Custom(vec![Rz, Tx, Ty, Tz])
@@ -165,7 +166,7 @@ fn three_slides() -> JointType {
     JointType::Custom(vec![Tx, Ty, Tz])
 }
 
-/// The two z at a right angle, and the origins together or J's line in a plane: z is I's, x is J's z.
+/// Returns the joint that keeps two z axes perpendicular and the origins together, or J's line in a plane: z is I's, x is J's z.
 fn square(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     let (z, line, oj) = (axis(i, 2), axis(j, 2), j.translation);
     if length(cross(z, line)) < FLAT {
@@ -184,7 +185,7 @@ fn square(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'s
     })
 }
 
-/// Ix·Jy + Iy·Jx = 0 holds the turn about one line, which goes round as the joint turns.
+/// Returns the joint that constrains the rotation about one line, Ix·Jy + Iy·Jx = 0; the line moves as the joint turns.
 fn bisected(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     let n = add(cross(axis(j, 1), axis(i, 0)), cross(axis(j, 0), axis(i, 1)));
     if length(n) < FLAT {
@@ -204,7 +205,7 @@ fn bisected(i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     Ok(here(Meeting::new(kind, near, far)))
 }
 
-/// The angle between the two z is held by a turn about what is square to both.
+/// Returns the joint that fixes the angle between two z axes: it constrains the rotation about their common normal.
 fn angle(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let (a, b) = (axis(i, 2), axis(j, 2));
@@ -227,7 +228,7 @@ fn angle(i: &RigidMotion, j: &RigidMotion, cosine: f64) -> Result<Meeting, &'sta
     Ok(here(Meeting::new(kind, near, far)))
 }
 
-/// A distance of points or of lines: held along the way from one to the other.
+/// Returns the joint that fixes a distance of points or of lines, along the direction from one to the other.
 fn apart(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'static str> {
     use Freedom::{Rz, Ty, Tz};
     let (z, oj) = (axis(i, 2), j.translation);
@@ -267,8 +268,8 @@ fn apart(holds: Holds, i: &RigidMotion, j: &RigidMotion) -> Result<Meeting, &'st
     }))
 }
 
-/// Two gears touch at the pitch point of the line of centres and do not slip there across that line; so does a belt, whose
-/// pitch point is outside.
+/// Returns the contact of two gears at the pitch point of the line of centres, where they do not slip across that line. The pitch
+/// point of a belt is outside.
 fn gear(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &'static str> {
     use Freedom::{Rx, Ry, Tx, Ty, Tz};
     let z = axis(i, 2);

@@ -28,7 +28,7 @@ impl Document {
 
 type Located = (ProblemKind, usize);
 
-/// The lines as nodes whose places in the arena begin at `first`.
+/// Returns the lines as nodes, whose places in the arena begin at `first`.
 fn outline(
     text: &str,
     source: usize,

@@ -30,7 +30,7 @@ pub(crate) enum Simple {
 }
 
 impl Simple {
-    /// As FreeCAD calls it.
+    /// Returns its name in FreeCAD.
     pub(crate) fn freecad(self) -> &'static str {
         match self {
             Simple::Fixed => "Fixed",
@@ -42,7 +42,7 @@ impl Simple {
         }
     }
 
-    /// As OndselSolver does.
+    /// Returns its name in OndselSolver.
     fn ondsel(self) -> &'static str {
         match self {
             Simple::Fixed => "FixedJoint",
@@ -64,7 +64,7 @@ enum Left {
     Other,
 }
 
-/// What directions span, beside an axis.
+/// Returns the span of directions in addition to an axis.
 fn span(all: &[Vector], axis: Vector) -> Left {
     let mut square: Vec<Vector> = Vec::new();
     for d in all {
@@ -84,14 +84,14 @@ fn span(all: &[Vector], axis: Vector) -> Left {
 }
 
 impl Origin {
-    /// The type of the CAD program that a joint becomes with more freedoms, each a slide or a turn and its direction; none where
-    /// it has no such type.
+    /// Returns the CAD type of a joint with additional freedoms, each a translation or a rotation and its direction. `None` if
+    /// there is no such type.
     #[must_use]
     pub fn becomes(&self, joint: JointId, more: &[(bool, Vector)]) -> Option<&'static str> {
         becomes(self, joint, more).map(Simple::freecad)
     }
 
-    /// Whether a joint can be given a freedom where it stands: whether it slides, and along or about which direction.
+    /// Returns true if a joint can be given a freedom in its place: a translation or rotation, and its direction.
     #[must_use]
     pub fn can_be_freed(&self, joint: JointId, freedom: (bool, Vector)) -> bool {
         if self.is_assembly() {
@@ -102,8 +102,8 @@ impl Origin {
     }
 }
 
-/// What a joint becomes with more freedoms, each a slide or a turn and its direction in the world; none where there is no such
-/// type.
+/// Returns a joint with additional freedoms, each a translation or a rotation and its direction in the world. `None` if there is
+/// no such type.
 pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) -> Option<Simple> {
     let part = origin.part(joint);
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
@@ -122,7 +122,7 @@ pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) 
     simple(&whole, axis).filter(other)
 }
 
-/// The type with these freedoms, each a slide or a turn and its direction, about an axis.
+/// Returns the type with these freedoms, each a translation or a rotation and its direction, about an axis.
 fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<Simple> {
     let left = |slides: bool| {
         let all = freedoms.iter().filter(|(s, _)| *s == slides);
@@ -140,10 +140,10 @@ fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<Simple> {
     }
 }
 
-/// The file with joints of the types that releases make of them.
+/// Returns the file with the joint types that result from releases.
 ///
 /// # Errors
-/// Where there is no such type, or a coupling is to be left out.
+/// Returns an error if there is no such type, or if a coupling would have to be removed.
 pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Read<Vec<u8>> {
     let origin = &imported.origin;
     let mut edits = Edits::new(origin);
@@ -181,7 +181,7 @@ fn cannot(part: &Part, element: Element<'_>, why: String) -> ImportError {
     element.fail(None, problem)
 }
 
-/// The freedoms that each joint gets.
+/// Returns the freedoms that each joint gets.
 fn by_joint(
     origin: &Origin,
     releases: &[(Release, String)],
@@ -206,7 +206,7 @@ fn by_joint(
     Ok(out)
 }
 
-/// FreeCAD writes a type as its place in the list beside it.
+/// Returns the index of a type in the list next to it, as FreeCAD writes it.
 fn enumerated(
     origin: &Origin,
     part: &Part,

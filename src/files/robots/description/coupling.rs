@@ -26,8 +26,8 @@ pub(crate) struct Usable {
     pub(in crate::robots) gear: bool,
 }
 
-/// Sorts out the couplings that a mechanism file can say; the others are noted and left out. `written` are the joints that
-/// go into the file.
+/// Selects the couplings that a mechanism file can represent; the others are noted and omitted. `written` are the joints of the
+/// file.
 pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
     let mut out: Vec<Usable> = Vec::new();
     for coupling in robot.couplings.clone() {
@@ -82,7 +82,7 @@ pub(crate) fn usable(robot: &mut Robot, written: &[usize]) -> Vec<Usable> {
     out
 }
 
-/// W of a mechanism without and with its couplings; none where there are no couplings or its digits do not decide.
+/// Returns W of a mechanism without and with its couplings. `None` if there are no couplings or its digits do not decide.
 pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
     if m.couplings.is_empty() {
         return None;
@@ -113,8 +113,8 @@ pub(crate) struct Follows {
     pub(in crate::robots) ratio: f64,
 }
 
-/// For each joint what it follows, and a sentence for each coupling that mimic joints cannot say: those of joints that are
-/// not `written` as joints of one freedom, and those that close a loop of couplings.
+/// Returns for each joint the joint it follows, and a sentence for each coupling that mimic joints cannot represent: those of
+/// joints that are not `written` as joints of one freedom, and those that close a loop of couplings.
 pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, Vec<String>) {
     let mut follows = vec![None; m.joints.len()];
     let mut said = vec![false; m.couplings.len()];
@@ -161,7 +161,7 @@ pub(crate) fn stand_in(joint: JointId) -> String {
     format!("{MARK}{}{MARK}", joint.index())
 }
 
-/// The text with what is known now in those places.
+/// Replaces the placeholders of a text by values that are known now.
 pub(crate) fn settled(text: &str, known: impl Fn(JointId) -> String) -> String {
     let mut out = String::with_capacity(text.len());
     for (i, part) in text.split(MARK).enumerate() {

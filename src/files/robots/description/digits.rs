@@ -32,8 +32,8 @@ fn stated_in(text: &str) -> Option<ToleranceEntry> {
     })
 }
 
-/// What is stated of a mechanism made from the elements under a root; nothing where no number there was rounded. The sizes are
-/// those of a robot and of the box round its joints in metres.
+/// Returns the tolerance of a mechanism made from the elements under a root, or `None` if no number there was rounded. The sizes
+/// are those of the robot and of the box around its joints, in metres.
 ///
 /// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
 /// is large.
@@ -76,7 +76,7 @@ pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<Tol
     stated([shift, if turned > 0.0 { turned.max(LEAST) } else { 0.0 }])
 }
 
-/// What is stated where places are known to a length and directions to an angle in radians, none where that is 0.
+/// Returns the tolerance for places known to a length and directions known to an angle in radians. `None` if both are 0.
 pub(crate) fn stated([shift, turned]: [f64; 2]) -> Option<ToleranceEntry> {
     // Two digits of an uncertainty are enough.
     let entry = |x: f64| Some(Coordinate::Decimal(format!("{x:.1e}").parse().ok()?));
@@ -118,7 +118,7 @@ fn attributes(e: Element<'_>, unit: Option<&Expr>, out: &mut Sources) {
     out.angles.extend(turned.map(|x| in_radians(x, unit)));
 }
 
-/// The numbers of SDF stand between tags.
+/// Collects the numbers of SDF between tags.
 fn texts(e: Element<'_>, degrees: &Expr, out: &mut Sources) {
     match e.name() {
         "xyz" => out.directions.push(words(e.text())),

@@ -19,8 +19,8 @@ pub(crate) struct Tree {
     pub(in crate::robots) loops: Vec<usize>,
 }
 
-/// The spanning tree from `frame`, breadth first; links that it does not reach start trees of their own at links that
-/// are no joint's child. Joints that say they close loops join a tree only where nothing else holds a link.
+/// Builds the spanning tree from `frame`, breadth first; unreached links start their own trees at links that are no joint's
+/// child. Joints that close loops by their description join a tree only if nothing else holds a link.
 pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
     let n = robot.links.len();
     let mut is_child = vec![false; n];
@@ -45,7 +45,7 @@ pub(crate) fn spanning_tree(robot: &Robot, frame: usize) -> Tree {
     }
 }
 
-/// The displacement of one freedom.
+/// Returns the displacement of one freedom.
 fn elementary(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
     let d = towards(part.direction(freedom));
     match freedom {
@@ -58,7 +58,7 @@ fn elementary(part: &Part, freedom: Freedom, value: f64) -> RigidMotion {
     }
 }
 
-/// The displacement of a joint: its child's side in its parent's.
+/// Returns the displacement of a joint: its child's side in its parent's.
 pub(crate) fn displacement(part: &Part) -> RigidMotion {
     part.joint_type
         .freedoms()
@@ -69,7 +69,7 @@ pub(crate) fn displacement(part: &Part) -> RigidMotion {
         })
 }
 
-/// The places of all links.
+/// Returns the places of all links.
 pub(crate) fn places(robot: &Robot, tree: &Tree) -> Vec<RigidMotion> {
     let mut out = robot.places.clone();
     for s in &tree.steps {
@@ -95,7 +95,7 @@ pub(crate) struct WorldAxis {
     pub(in crate::robots) direction: Vector,
 }
 
-/// The freedoms of a joint in the world; each is carried along by those before it.
+/// Returns the freedoms of a joint in the world; each is moved by those before it.
 pub(crate) fn world_axes(part: &Part, places: &[RigidMotion]) -> Vec<WorldAxis> {
     let mut pose = places[part.links[0]].then(&part.sides[0]);
     let mut out = Vec::new();

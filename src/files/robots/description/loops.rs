@@ -31,8 +31,8 @@ pub(crate) fn add(name: &str, bytes: &[u8], robot: &mut Robot) -> Read<()> {
     added().map_err(|p| p.in_file(name, "", None))
 }
 
-/// Where a file beside a URDF names loops that nobody asked to read, says so and counts their rows. Such a file is called as the
-/// description is, or `robot`, as example-parallel-robots has it.
+/// Reports a file next to a URDF that defines loops but was not asked for, and counts their rows. Such a file has the name of the
+/// description, or `robot`, as in example-parallel-robots.
 pub(crate) fn beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
     let stem = std::path::Path::new(name).file_stem();
     let stem = stem.map_or(String::new(), |s| s.to_string_lossy().into_owned());
@@ -68,7 +68,7 @@ pub(crate) fn beside(name: &str, read: Reader<'_>, robot: &mut Robot) {
     }
 }
 
-/// Whether a file has one of the shapes that name loops.
+/// Returns true if a file has one of the forms that define loops.
 fn has_loops(name: &str, bytes: &[u8]) -> bool {
     let text = std::str::from_utf8(bytes)
         .ok()
@@ -140,7 +140,7 @@ fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
     })
 }
 
-/// The link and place of a name: of a link or frame, or of the child's side of a joint.
+/// Returns the link and place of a name: of a link or frame, or of the child's side of a joint.
 fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, RigidMotion), ProblemKind> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
@@ -183,7 +183,7 @@ fn put(
     Ok(())
 }
 
-/// Gives the joints of `joint_name` the kinds of `joint_type`: those that URDF has no word for.
+/// Gives the joints of `joint_name` the kinds of `joint_type`, which URDF cannot represent.
 fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     let (names, types) = (list(o, "joint_name")?, list(o, "joint_type")?);
     if names.len() != types.len() {
@@ -234,7 +234,7 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind>
     Ok(())
 }
 
-/// The form of example-parallel-robots.
+/// Reads the form of example-parallel-robots.
 fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     retyped(o, robot)?;
     let types = list(o, "type")?;
@@ -266,7 +266,7 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
     Ok(())
 }
 
-/// Numbers as a list, or as text with spaces as Drake writes them.
+/// Reads numbers as a list, or as text with spaces as in Drake.
 fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> {
     let bad = || {
         syntax_problem(format!(

@@ -22,7 +22,7 @@ pub(crate) struct Light {
 }
 
 impl Light {
-    /// Beside the masses and moments of inertia that are there.
+    /// Returns a light body for the existing masses and moments of inertia.
     fn beside(masses: &[f64], inertias: &[f64]) -> Light {
         let small = |all: &[f64], which: usize| {
             let most = all.iter().copied().fold(0.0, f64::max);
@@ -39,7 +39,7 @@ impl Light {
         }
     }
 
-    /// Beside what a description of any format states.
+    /// Returns a light body for the masses in a description of any format.
     pub(crate) fn in_description(document: &Document) -> Light {
         let (mut masses, mut inertias) = (Vec::new(), Vec::new());
         for e in (0..document.nodes.len()).map(|id| document.element(id)) {
@@ -65,7 +65,7 @@ impl Light {
         Light::beside(&masses, &inertias)
     }
 
-    /// Beside what the links of a mechanism weigh.
+    /// Returns a light body for the masses of the links of a mechanism.
     pub(crate) fn in_mechanism(m: &Mechanism) -> Light {
         let all = m.links.iter().filter_map(|l| l.mass.as_ref());
         let masses: Vec<f64> = all.clone().map(|p| p.mass).collect();
@@ -77,14 +77,14 @@ impl Light {
         Light::beside(&masses, &inertias.collect::<Vec<f64>>())
     }
 
-    /// As MJCF has it, with its centre at a place in its body.
+    /// Writes it as MJCF, with its centre at a place in its body.
     pub(crate) fn mjcf(self, at: Vector) -> String {
         let Light { mass, inertia: i } = self;
         let at = numbers(at);
         format!("<inertial pos=\"{at}\" mass=\"{mass:e}\" diaginertia=\"{i:e} {i:e} {i:e}\"/>")
     }
 
-    /// As URDF has it.
+    /// Writes it as URDF.
     pub(crate) fn urdf(self) -> String {
         let Light { mass, inertia: i } = self;
         format!(
@@ -92,7 +92,7 @@ impl Light {
         )
     }
 
-    /// As SDF has it.
+    /// Writes it as SDF.
     pub(crate) fn sdf(self) -> String {
         let Light { mass, inertia: i } = self;
         format!(

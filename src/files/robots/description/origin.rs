@@ -47,31 +47,31 @@ impl Origin {
         self.document.element(id)
     }
 
-    /// The element that a joint is; none where a file beside the description says that it is there.
+    /// Returns the element of a joint. `None` if it is defined in a separate file.
     #[must_use]
     pub fn joint(&self, joint: JointId) -> Option<ElementPlace> {
         self.part(joint).element.map(|e| self.place(e))
     }
 
-    /// The element that a coupling is, by its place among the mechanism's.
+    /// Returns the element of a coupling, given by its index in the mechanism.
     #[must_use]
     pub fn coupling(&self, coupling: usize) -> Option<ElementPlace> {
         self.couplings.get(coupling).map(|&e| self.place(e))
     }
 
-    /// Whether a joint is there to close a loop, by what the description says.
+    /// Returns true if a joint closes a loop according to the description.
     #[must_use]
     pub fn closes(&self, joint: JointId) -> bool {
         self.part(joint).closes
     }
 
-    /// Whether a joint is moved by an actuator, alone or by a tendon: it is best left as it is.
+    /// Returns true if an actuator moves a joint, directly or through a tendon; such a joint should not be changed.
     #[must_use]
     pub fn is_actuated(&self, joint: JointId) -> bool {
         self.part(joint).drive || self.part(joint).pulled
     }
 
-    /// Whether all joints of one freedom are within their limits in a pose; the mechanism's unit of length is so many metres.
+    /// Returns true if all joints of one freedom are within their limits in a pose; `metres` is the mechanism's unit of length.
     #[must_use]
     pub fn is_inside(&self, pose: &Pose, metres: f64) -> bool {
         pose.columns.iter().all(|c| {
@@ -104,26 +104,26 @@ impl Origin {
         self.robot.joints.iter().filter_map(words).collect()
     }
 
-    /// Whether it is an assembly of a CAD program: joints are changed to one of its types, not by one freedom.
+    /// Returns true for an assembly of a CAD program, whose joints are changed to one of its types, not by one freedom.
     #[must_use]
     pub fn is_assembly(&self) -> bool {
         self.robot.assembly
     }
 
-    /// Whether the mechanism is that of this pose alone: joints are open, or have freedoms that no joint has.
+    /// Returns true if the mechanism is valid in this pose only: joints are open, or have freedoms that no joint type has.
     #[must_use]
     pub fn is_of_this_pose(&self) -> bool {
         self.robot.here_only
     }
 
-    /// How far the two frames of a joint of an assembly are apart in what it holds: a length in the mechanism's unit, and
-    /// radians. None where the file places one frame only.
+    /// Returns the distance between the two frames of a joint of an assembly in its constrained directions: a length in the
+    /// mechanism's unit, and radians. `None` if the file places one frame only.
     #[must_use]
     pub fn misfit(&self, joint: JointId) -> Option<[f64; 2]> {
         self.part(joint).misfit
     }
 
-    /// The same in words, where it is more than rounding.
+    /// Returns the same in words, if it is more than rounding.
     #[must_use]
     pub fn open_by(&self, joint: JointId) -> Option<String> {
         let misfit = self.misfit(joint)?;
@@ -131,7 +131,7 @@ impl Origin {
         told.then(|| cad::words(misfit, self.robot.unit))
     }
 
-    /// Whether a joint can be given more joints in series where it stands.
+    /// Returns true if more joints can be added in series with a joint.
     pub(in crate::robots) fn takes_joints(&self, joint: JointId) -> bool {
         let Some(id) = self.part(joint).element else {
             return false;

@@ -15,7 +15,7 @@ pub(crate) struct Inertial {
     pub(in crate::robots) tensor: [f64; 6],
 }
 
-/// Of a link whose mass the file states, its centre as seen from an origin in metres.
+/// Returns the inertial data of a link whose mass the file gives, with its centre relative to an origin in metres.
 pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<Inertial> {
     let p = m.links[link].mass.as_ref()?;
     let tensor = match p.inertia {
@@ -37,7 +37,7 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
 pub(crate) const GRAM: &str =
     "links without a mass get 1 g, because engines reject massless moving bodies";
 
-/// The same of a link that moves, which engines refuse without mass or inertia: a gram where the file states none.
+/// Returns the same for a link that moves, which engines reject without mass or inertia; 1 g if the file gives none.
 pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
     let found = inertial(m, link, origin).filter(|i| i.mass > 0.0);
     let mut out = found.unwrap_or(Inertial {
@@ -51,7 +51,7 @@ pub(crate) fn moving(m: &Mechanism, link: LinkId, origin: Vector) -> Inertial {
     out
 }
 
-/// Comments at the head of a robot description: what the mechanism says of itself, and what is told of its writing.
+/// Returns comments for the head of a robot description: those of the mechanism, and notes on the conversion.
 pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
     let own = Some(&m.description).filter(|d| !d.is_empty());
     let plain = |s: &String| s.replace(|c: char| c.is_control(), " ");
@@ -61,7 +61,7 @@ pub(crate) fn head(m: &Mechanism, indent: &str, told: &[String]) -> String {
         .collect()
 }
 
-/// What a robot description of the free state leaves out, a sentence each.
+/// Returns the omissions of a robot description of the free state, a sentence each.
 pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
     let mut out = Vec::new();
     if let Mode::Planar { .. } = m.mode {

@@ -15,7 +15,7 @@ pub(crate) enum ShapeKind {
     Surface,
 }
 
-/// The kind of an element, such as `Face3`; none where the shape does not tell.
+/// Returns the kind of an element, such as `Face3`. `None` if the shape does not define it.
 pub(crate) fn kind(shape: &str, element: &str) -> Option<ShapeKind> {
     let number = |prefix: &str| element.strip_prefix(prefix)?.parse::<usize>().ok();
     let (tag, place) = match (number("Face"), number("Edge")) {
@@ -37,7 +37,7 @@ struct BrepShape<'a> {
     geometry: Option<usize>,
 }
 
-/// The lines behind a heading that says how many of something follow.
+/// Returns the lines after a heading that gives their number.
 fn section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
     let mut from = 0;
     loop {
@@ -52,7 +52,8 @@ fn section<'a>(text: &'a str, heading: &str) -> Option<(usize, &'a str)> {
     }
 }
 
-/// The shapes in the order of the file: parts come before what they are part of, and are called by their place from the end.
+/// Returns the shapes in the order of the file: parts come before the shapes they belong to, and are referred to by their place
+/// from the end.
 fn shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
     let (count, body) = section(text, "TShapes")?;
     // Each takes three lines at least.
@@ -102,7 +103,7 @@ fn shapes(text: &str) -> Option<Vec<BrepShape<'_>>> {
     Some(out)
 }
 
-/// The place of the n-th shape of a tag, from 1, as they are met from the whole down, each once.
+/// Returns the place of the n-th shape of a tag, from 1, in the order of a traversal from the whole down, each counted once.
 fn nth(shapes: &[BrepShape<'_>], tag: &str, n: usize) -> Option<usize> {
     let mut met = vec![false; shapes.len()];
     let mut stack = vec![shapes.len().checked_sub(1)?];
@@ -122,7 +123,7 @@ fn nth(shapes: &[BrepShape<'_>], tag: &str, n: usize) -> Option<usize> {
     None
 }
 
-/// The line that a surface or curve of simple kind is.
+/// Returns the line of a surface or curve of simple kind.
 fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> {
     let (count, body) = section(text, heading)?;
     if n == 0 || n > count {

@@ -16,7 +16,7 @@ pub(crate) struct Distance {
     pub(crate) doubt: Option<&'static str>,
 }
 
-/// The kind of an element by its name and that of the object it is of, where its shape does not tell.
+/// Returns the kind of an element by its name and that of its object, if its shape does not define it.
 pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
     if element.starts_with("Vertex") {
         return Some(ShapeKind::Vertex);
@@ -33,7 +33,7 @@ pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
     }
 }
 
-/// What is held between two kinds, at frames in the assembly and with the distance of the joint.
+/// Returns the constraint between two kinds, at frames in the assembly and with the distance of the joint.
 pub(crate) fn distance(
     kinds: [Option<ShapeKind>; 2],
     frames: &[RigidMotion; 2],
@@ -93,7 +93,7 @@ pub(crate) fn distance(
     }
 }
 
-/// How far the one frame is from the plane of the other, along its normal: the plane is the second where they change places.
+/// Returns the distance of one frame from the plane of the other, along its normal; with `swap` the plane is the second.
 fn height(frames: &[RigidMotion; 2], swap: bool) -> f64 {
     let [plane, other] = if swap {
         [&frames[1], &frames[0]]
@@ -111,7 +111,7 @@ fn radius(k: ShapeKind) -> f64 {
     }
 }
 
-/// Where a shape does not tell what a face is: at a solved pose the directions of the two frames do, as far as they can.
+/// Determines unknown kinds of faces from the directions of the two frames at a solved pose, as far as possible.
 fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Distance) -> Distance {
     let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
@@ -135,7 +135,7 @@ fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Dist
     }
 }
 
-/// The frame of a rack, its x along the way that it slides and its y away from the pinion.
+/// Returns the frame of a rack, with x along its direction of sliding and y away from the pinion.
 pub(crate) fn rack(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) -> RigidMotion {
     let z = pinion.rotation.map(|row| row[2]);
     let x = crate::geom::rigid::towards(add_scaled(slide, -dot(slide, z), z));

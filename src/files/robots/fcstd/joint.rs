@@ -24,10 +24,10 @@ pub(crate) struct Held {
 /// The direction of a slide, and the part that has it: racks slide along one.
 pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
 
-/// The two frames of a joint in the assembly.
+/// Returns the two frames of a joint in the assembly.
 ///
 /// # Errors
-/// Where a number of a placement is none.
+/// Returns an error if a number of a placement is invalid.
 pub(crate) fn frames(joint: &Object<'_>, ends: &[Reference<'_>; 2]) -> Read<[RigidMotion; 2]> {
     let mut out = [RigidMotion::IDENTITY; 2];
     for (i, end) in ends.iter().enumerate() {
@@ -38,10 +38,10 @@ pub(crate) fn frames(joint: &Object<'_>, ends: &[Reference<'_>; 2]) -> Read<[Rig
     Ok(out)
 }
 
-/// What the joint of a type holds; none where FreeCAD has got a type that is not known here.
+/// Returns the constraint of a joint type. `None` for a type of FreeCAD that is not known here.
 ///
 /// # Errors
-/// Where a figure is no number.
+/// Returns an error if a figure is not a number.
 pub(crate) fn held(
     word: &str,
     joint: &Object<'_>,
@@ -97,12 +97,12 @@ pub(crate) fn held(
     }))
 }
 
-/// The kind of the element that a joint holds on to.
+/// Returns the kind of the element that a joint refers to.
 fn of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
     by_name(end.element, end.object).or_else(|| kind(&shapes(end.shape?)?, end.element))
 }
 
-/// The rack is the part with a slide across the pinion's axis.
+/// Returns the rack and pinion; the rack is the part with a slide across the pinion's axis.
 fn pinion(
     radius: f64,
     ends: &[Reference<'_>; 2],

@@ -27,7 +27,7 @@ pub(crate) struct Objects<'a> {
 }
 
 impl<'a> Objects<'a> {
-    /// Those below the root element of `Document.xml`.
+    /// Returns the objects below the root element of `Document.xml`.
     pub(crate) fn of(root: Element<'a>) -> Read<Objects<'a>> {
         let data = root.child("ObjectData");
         let data: BTreeMap<&str, Element<'a>> = data
@@ -71,7 +71,7 @@ impl<'a> Objects<'a> {
         self.by_name.get(name).map(|&i| &self.list[i])
     }
 
-    /// The object in whose group another is.
+    /// Returns the object whose group contains another.
     pub(crate) fn above(&self, name: &str) -> Option<&Object<'a>> {
         self.get(self.above.get(name)?)
     }
@@ -84,7 +84,7 @@ impl<'a> Object<'a> {
             .find(|p| p.attribute("name") == Some(name))
     }
 
-    /// The first element below a property: its value.
+    /// Returns the first element below a property: its value.
     fn value(&self, name: &str) -> Option<Element<'a>> {
         self.property(name)?.children().next()
     }
@@ -93,7 +93,7 @@ impl<'a> Object<'a> {
         self.value(name)?.attribute("value")
     }
 
-    /// What users see as its name.
+    /// Returns the name that users see.
     pub(crate) fn label(&self) -> &'a str {
         let label = self.text("Label").filter(|l| !l.trim().is_empty());
         label.unwrap_or(self.name)
@@ -110,7 +110,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The names of a list of links; of a link alone, that one.
+    /// Returns the names of a list of links, or the name of a single link.
     pub(crate) fn links(&self, name: &str) -> Vec<&'a str> {
         let Some(value) = self.value(name) else {
             return Vec::new();
@@ -126,10 +126,10 @@ impl<'a> Object<'a> {
             .collect()
     }
 
-    /// Its place within what it stands in.
+    /// Returns its placement relative to its parent.
     ///
     /// # Errors
-    /// Where numbers are no numbers, or the quaternion is none.
+    /// Returns an error if a number or the quaternion is invalid.
     pub(crate) fn placement(&self, name: &str) -> Read<Option<RigidMotion>> {
         let Some(e) = self.value(name) else {
             return Ok(None);
@@ -149,7 +149,7 @@ impl<'a> Object<'a> {
         Ok(Some(RigidMotion::quaternion(translation, q)))
     }
 
-    /// The word that an enumeration has, by the list that stands beside its index.
+    /// Returns the word of an enumeration, by the list next to its index.
     pub(crate) fn word(&self, name: &str) -> Read<Option<&'a str>> {
         let Some(property) = self.property(name) else {
             return Ok(None);
@@ -180,17 +180,17 @@ impl<'a> Object<'a> {
         format!("object \"{}\"", self.name)
     }
 
-    /// Whether a type of object has others in a group that moves as they do, each by itself.
+    /// Returns true if a type of object contains others in a group that move like it, each by itself.
     pub(crate) fn is_group(&self) -> bool {
         self.kind.starts_with("App::DocumentObjectGroup") || self.is_flexible()
     }
 
-    /// Whether it is a link to an assembly whose parts move by themselves.
+    /// Returns true for a link to an assembly whose parts move by themselves.
     pub(crate) fn is_flexible(&self) -> bool {
         self.kind == "Assembly::AssemblyLink" && self.is_true("Rigid") == Some(false)
     }
 
-    /// Whether it is a link that stands for many.
+    /// Returns true for a link that represents several objects.
     pub(crate) fn is_array(&self) -> bool {
         let count = self
             .text("ElementCount")
@@ -198,7 +198,7 @@ impl<'a> Object<'a> {
         self.kind == "App::Link" && count.is_some_and(|c| c > 0)
     }
 
-    /// Whether it is a point, line, plane or frame without a body.
+    /// Returns true for a point, line, plane or frame without a body.
     pub(crate) fn is_datum(&self) -> bool {
         const DATUMS: &str = "App::Origin App::Line App::Plane App::Point \
             App::LocalCoordinateSystem Part::LocalCoordinateSystem Part::Datum PartDesign::Line \
@@ -207,14 +207,14 @@ impl<'a> Object<'a> {
             || ["PartDesign::Plane", "PartDesign::Point"].contains(&self.kind)
     }
 
-    /// The file, beside this one, and name of the object that a link stands for.
+    /// Returns the file, relative to this one, and the name of the object that a link refers to.
     pub(crate) fn linked(&self) -> Option<(&'a str, &'a str)> {
         let e = self.value("LinkedObject")?;
         let name = e.attribute("name").or_else(|| e.attribute("value"))?;
         Some((e.attribute("file").unwrap_or(""), name))
     }
 
-    /// The member of the archive that its shape is in.
+    /// Returns the member of the archive that contains its shape.
     pub(crate) fn shape(&self) -> Option<&'a str> {
         let shape = self.property("Shape")?.child("Part")?;
         shape.attribute("file").filter(|f| !f.is_empty())

@@ -44,10 +44,10 @@ pub(crate) struct Reference<'a> {
 /// Why a reference leads nowhere, in words.
 pub(crate) type Broken = String;
 
-/// The reference of a joint, `Reference1` or `Reference2`.
+/// Returns the reference of a joint, `Reference1` or `Reference2`.
 ///
 /// # Errors
-/// Where a number of a placement is none; why a reference leads nowhere is no error of the file.
+/// Returns an error if a number of a placement is invalid. A broken reference is not an error of the file.
 pub(crate) fn reference<'a>(
     joint: &Object<'a>,
     which: &str,
@@ -75,7 +75,7 @@ pub(crate) fn reference<'a>(
     follow(names, element, which, assembly, documents)
 }
 
-/// The names from below the assembly to the element, which is the last and may be empty.
+/// Returns the names from below the assembly to the element, which is the last and may be empty.
 fn path<'a>(
     link: Element<'a>,
     root: &'a str,
@@ -102,7 +102,7 @@ fn path<'a>(
     names
 }
 
-/// Whether objects below it are features of one shape, without a place of their own.
+/// Returns true if objects below it are features of one shape, without their own placement.
 fn is_body(o: &Object<'_>) -> bool {
     o.kind.starts_with("PartDesign::")
         || (o.kind.starts_with("Part::") && !o.kind.starts_with("Part::Part"))
@@ -149,12 +149,12 @@ fn part<'a, 'n>(
     )))
 }
 
-/// The place of an object in what it is in.
+/// Returns the placement of an object relative to its parent.
 fn placed(o: &Object<'_>) -> Read<RigidMotion> {
     Ok(o.placement("Placement")?.unwrap_or(RigidMotion::IDENTITY))
 }
 
-/// Whether a datum is attached to something.
+/// Returns true if a datum is attached to something.
 fn is_attached(o: &Object<'_>) -> bool {
     ["AttachmentSupport", "Support"].iter().any(|p| {
         o.property(p)
@@ -238,7 +238,7 @@ struct ObjectInFile<'a> {
     file: &'a str,
 }
 
-/// What a link stands for, in its file; a link that turns what it stands for along adds to the place.
+/// Returns the object that a link refers to, in its file; a link that moves its object adds to the placement.
 fn resolved<'a>(
     mut at: ObjectInFile<'a>,
     documents: &Documents<'a>,

@@ -80,13 +80,13 @@ pub(crate) struct Content<'a> {
 }
 
 impl Content<'_> {
-    /// Whether the rates of a joint matter: its axis is then of length 1, so that they are exact.
+    /// Returns true if the rates of a joint matter; its axis then has length 1, so that they are exact.
     fn coupled(&self, joint: usize) -> bool {
         self.couplings.iter().any(|u| u.ends.contains(&joint))
     }
 }
 
-/// The entries of the file and what is to be said above them.
+/// Returns the entries of the file and the comments above them.
 pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let mut comments = Vec::new();
     let (links, ids) = links(c, &mut comments);
@@ -127,7 +127,7 @@ fn one_line(s: &str) -> String {
     s.chars().filter(|c| !c.is_control()).collect()
 }
 
-/// Where the mechanism comes from, and what was left out on the way.
+/// Describes the source of the mechanism, and what was omitted in the conversion.
 fn description(c: &Content<'_>) -> String {
     let report = &c.robot.report;
     let left_out = match (report.coupling_rows, report.constraint_rows) {
@@ -141,7 +141,7 @@ fn description(c: &Content<'_>) -> String {
     format!("Imported from {file} ({format}).{left_out}{left_behind}")
 }
 
-/// The links, the frame first, with the names of the bodies that they are.
+/// Returns the links, the frame first, with the names of their bodies.
 fn links(
     c: &Content<'_>,
     comments: &mut Vec<Comment>,
@@ -177,13 +177,13 @@ fn links(
     (links, ids)
 }
 
-/// A number as it is written: rounding errors around multiples of 1e-9 are taken off.
+/// Writes a number without rounding errors around multiples of 1e-9.
 fn number(x: f64) -> Coordinate {
     let r = (x * 1e9).round() / 1e9;
     plain(if (r - x).abs() < 1e-12 { r } else { x })
 }
 
-/// A direction as written: of its own length unless that is extreme.
+/// Returns a direction for the file: with its own length unless that is extreme.
 fn direction(v: Vector) -> Vector {
     if (0.1..=10.0).contains(&length(v)) {
         v

@@ -30,7 +30,7 @@ pub(crate) struct Gap {
     pub(in crate::robots) turn: f64,
 }
 
-/// Size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
+/// Returns the size of the robot: the largest distance between joints of one link, for weighing angles against lengths.
 pub(crate) fn size(robot: &Robot) -> f64 {
     robot
         .joints
@@ -39,7 +39,7 @@ pub(crate) fn size(robot: &Robot) -> f64 {
         .fold(1e-3, f64::max)
 }
 
-/// How the two sides of a loop joint differ: a shift and a rotation vector, in the world.
+/// Returns the difference between the two sides of a loop joint: a shift and a rotation vector, in the world.
 fn mismatch(robot: &Robot, places: &[RigidMotion], j: usize) -> (Vector, Vector) {
     let p = &robot.joints[j];
     let near = places[p.links[0]].then(&p.sides[0]).then(&displacement(p));
@@ -61,7 +61,7 @@ fn free_turns(robot: &Robot, j: usize) -> usize {
     freedoms.filter(|f| f.turns()).count()
 }
 
-/// The gaps of all loops.
+/// Returns the gaps of all loops.
 pub(crate) fn gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
     let places = places(robot, tree);
     tree.loops
@@ -77,15 +77,15 @@ pub(crate) fn gaps(robot: &Robot, tree: &Tree) -> Vec<Gap> {
         .collect()
 }
 
-/// The largest gap as a length.
+/// Returns the largest gap as a length.
 pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
     gaps.iter()
         .map(|g| g.shift.max(g.turn * size))
         .fold(0.0, f64::max)
 }
 
-/// Changes the joint values so that the loops close, staying near where they are; gives the largest gap left
-/// and the number of joints outside their limits.
+/// Changes the joint values so that the loops close, staying near the current values. Returns the largest gap left and the number
+/// of joints outside their limits.
 ///
 /// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
 /// fewest limits, else the first that comes as near as rounded coordinates do, else the values stay.
@@ -153,7 +153,7 @@ fn wind_back(j: &mut Part) -> bool {
     }
 }
 
-/// Other values to start from: limited joints within their limits, others turned a little, differently each time.
+/// Sets other values to start from: limited joints within their limits, others slightly rotated, differently each time.
 fn begin(robot: &mut Robot, start: usize) {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(start as u64);
     for j in &mut robot.joints {
@@ -175,7 +175,7 @@ fn begin(robot: &mut Robot, start: usize) {
     }
 }
 
-/// Levenberg-Marquardt with the exact twists as derivatives.
+/// Minimises the gaps by Levenberg-Marquardt with the exact twists as derivatives.
 fn descend(robot: &mut Robot, tree: &Tree, size: f64) -> f64 {
     let offsets: Vec<usize> = robot
         .joints
@@ -249,7 +249,7 @@ fn cost(robot: &Robot, tree: &Tree, size: f64) -> f64 {
         .sum()
 }
 
-/// The derivative of "near side less far side" and the mismatch that it has to make up for.
+/// Returns the derivative of "near side less far side" and the mismatch to be corrected.
 fn linearise(
     robot: &Robot,
     tree: &Tree,

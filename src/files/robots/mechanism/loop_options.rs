@@ -9,8 +9,8 @@ use crate::redundancy::release::Release;
 use crate::redundancy::stressed::Stressed;
 use crate::robots::description::coupling::LARGEST;
 
-/// Gives the joints that close loops options of their own: more freedom along each direction that their self-stresses have, and
-/// along all of them. Says whether there are any.
+/// Gives the joints that close loops their own options: more freedom along each direction of their self-stresses, and along all
+/// of them. Returns true if there are any.
 pub(crate) fn at_loops(m: &Mechanism, closes: &[bool], file: &mut MechanismFile) -> bool {
     if !closes.contains(&true) {
         return false;
@@ -65,7 +65,7 @@ fn tables(m: &Mechanism, joint: JointId, all: &[Release]) -> Vec<OptionEntry> {
     out
 }
 
-/// The joint with more freedoms, about and along axes that are square to one another.
+/// Returns the option of a joint with more freedoms, about and along perpendicular axes.
 fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
     let z = more[0].1;
     let square = |d: &Vector| dot(*d, z).abs() < 0.5;
@@ -109,7 +109,7 @@ fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
     }))
 }
 
-/// "y", or "(0.60 0.80 0.00)".
+/// Names a direction: "y", or "(0.60 0.80 0.00)".
 fn line(d: Vector) -> String {
     let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
     match along {

@@ -21,8 +21,8 @@ pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
     })
 }
 
-/// Links by the place of the one that stands for each: those asked for, or end effectors by name, or the ends of chains that
-/// have a shape or a site, or all of them, or what is farthest from the frame; and a base that floats.
+/// Returns the output links by their representatives: those asked for, or end effectors by name, or the ends of chains with a
+/// shape or a site, or all ends, or the farthest link from the frame; and a floating base.
 pub(crate) fn of(
     robot: &Robot,
     bodies: &Bodies,
@@ -92,7 +92,7 @@ fn is_among(words: &str, word: &str) -> bool {
     words.split(' ').any(|w| w == word)
 }
 
-/// Whether a name ends like that of an end effector: "left-foot", "arm_tool0", "r_hand_link".
+/// Returns true if a name ends like that of an end effector: "left-foot", "arm_tool0", "r_hand_link".
 fn is_effector(name: &str) -> bool {
     let lower = name.to_lowercase();
     let words = lower.split(|c: char| !c.is_alphanumeric());

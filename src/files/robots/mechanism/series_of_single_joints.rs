@@ -34,7 +34,7 @@ pub(crate) fn place(m: &Mechanism, j: &Joint) -> JointAxes {
     }
 }
 
-/// The freedoms one by one.
+/// Returns the freedoms one by one.
 pub(crate) fn singles(j: &JointType, p: &JointAxes) -> Vec<Single> {
     let [x, y, z] = p.axes;
     j.freedoms()
@@ -51,14 +51,14 @@ pub(crate) fn singles(j: &JointType, p: &JointAxes) -> Vec<Single> {
         .collect()
 }
 
-/// A number without the rounding errors of scaling.
+/// Removes the rounding errors of scaling from a number.
 pub(crate) fn number(x: f64) -> f64 {
     let r = (x * 1e12).round() / 1e12;
     let y = if (r - x).abs() < 1e-15 { r } else { x };
     if y == 0.0 { 0.0 } else { y }
 }
 
-/// Three numbers with spaces between.
+/// Formats three numbers with spaces between them.
 pub(crate) fn numbers(v: Vector) -> String {
     let mut out = String::new();
     for (i, x) in v.into_iter().enumerate() {
@@ -95,12 +95,12 @@ pub(crate) fn unique(
     name
 }
 
-/// Text for an attribute or element.
+/// Escapes text for an attribute or element.
 pub(crate) fn escape(text: &str) -> String {
     quick_xml::escape::escape(text).into_owned()
 }
 
-/// Text for a comment.
+/// Escapes text for a comment.
 pub(crate) fn comment(text: &str) -> String {
     text.replace("--", "- -")
 }

@@ -54,7 +54,7 @@ pub(super) fn compiler(root: Element<'_>) -> Read<Compiler> {
 }
 
 impl Compiler {
-    /// The place that `pos` and one of the five ways to give an orientation stand for.
+    /// Returns the placement given by `pos` and one of the five forms of orientation.
     pub(super) fn place(&self, e: Element<'_>) -> Read<RigidMotion> {
         Ok(RigidMotion {
             translation: e.vector("pos", [0.0; 3])?,
@@ -62,7 +62,7 @@ impl Compiler {
         })
     }
 
-    /// The turn that one of the five ways stands for.
+    /// Returns the rotation given by one of the five forms.
     pub(super) fn turned(&self, e: Element<'_>) -> Read<RigidMotion> {
         let zero = |name: &str| {
             let want = "give a direction or quaternion that is not zero";
@@ -108,7 +108,7 @@ impl Compiler {
         Ok(pose)
     }
 
-    /// Three turns in the order that the file asks for.
+    /// Returns three rotations in the order that the file asks for.
     fn euler(&self, angles: [f64; 3]) -> RigidMotion {
         let mut turn = RigidMotion::IDENTITY;
         for (axis, angle) in self.eulerseq.chars().zip(angles) {

@@ -41,8 +41,8 @@ impl<'a> Defaults<'a> {
         Ok(Defaults { classes })
     }
 
-    /// Where to look up the attributes of an element: itself, then `tag` in its class, else in that of the bodies around
-    /// it, else in the main one.
+    /// Returns the elements that hold the attributes of an element: itself, then `tag` in its class, otherwise in that of the
+    /// bodies around it, otherwise in the main one.
     pub(crate) fn of(
         &self,
         e: Element<'a>,
@@ -77,7 +77,7 @@ impl<'a> Defaults<'a> {
 }
 
 impl<'a> Lookup<'a> {
-    /// An attribute and the element that has it.
+    /// Returns an attribute and its element.
     pub(crate) fn attribute(&self, name: &str) -> Option<(Element<'a>, &'a str)> {
         self.places
             .iter()

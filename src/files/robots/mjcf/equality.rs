@@ -156,7 +156,7 @@ fn coupling(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// A joint that stands at a constant, which an equality says: it is rigid.
+/// Makes a joint rigid that an equality holds at a constant.
 fn hold(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     let one = |j: &&mut Part| j.id == joint && j.values.len() == 1;
     let Some(j) = robot.joints.iter_mut().find(one) else {
@@ -170,8 +170,8 @@ fn hold(e: Element<'_>, joint: &str, value: f64, robot: &mut Robot) {
     robot.report.map("joint held at a constant");
 }
 
-/// An equality of the lengths of tendons. That of a `<fixed>` tendon is a sum of joint values, each times a coefficient: the equality
-/// is a linear row between these joints.
+/// Reads an equality of the lengths of tendons. The length of a `<fixed>` tendon is a sum of joint values, each times a
+/// coefficient, so the equality is a linear row between these joints.
 fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
     let first = length(e, "tendon1", root)?;
     let second = match e.attribute("tendon2") {
@@ -204,7 +204,7 @@ fn tendons(e: Element<'_>, root: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// The coefficients of the joints that the length of a tendon is a sum of; none where it is no `<fixed>` tendon.
+/// Returns the coefficients of the joints whose sum is the length of a tendon. `None` if it is not a `<fixed>` tendon.
 fn length<'a>(
     e: Element<'a>,
     key: &'static str,
@@ -236,7 +236,7 @@ fn comment(joint: &str, what: &str, robot: &mut Robot) {
     }
 }
 
-/// The five coefficients of `polycoef`, lowest first; those left out are as MuJoCo has them, 0 1 0 0 0.
+/// Returns the five coefficients of `polycoef`, lowest first; omitted ones have MuJoCo's defaults, 0 1 0 0 0.
 fn polynomial(e: Element<'_>) -> Read<[f64; 5]> {
     let mut out = [0.0, 1.0, 0.0, 0.0, 0.0];
     let Some(text) = e.attribute("polycoef") else {

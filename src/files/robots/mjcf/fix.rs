@@ -89,7 +89,7 @@ impl<'a> MjcfFile<'a> {
         self.origin.element(parent)
     }
 
-    /// The body, or world, around an element.
+    /// Returns the body, or world, around an element.
     fn body(&self, id: usize) -> Element<'a> {
         let mut at = self.parents[id];
         while let Some(id) = at {
@@ -101,7 +101,7 @@ impl<'a> MjcfFile<'a> {
         self.origin.element(at.unwrap_or(self.origin.root))
     }
 
-    /// What the classes around say of joints that is nothing to a new one is taken back.
+    /// Returns attributes that undo defaults of the surrounding classes for a new joint.
     fn neutral(&self, around: Element<'a>) -> Read<String> {
         let (mut at, mut class) = (Some(around.id), None);
         while let (Some(id), None) = (at, class) {
@@ -130,10 +130,10 @@ impl<'a> MjcfFile<'a> {
         Ok(out)
     }
 
-    /// Returns the armature of a new joint beside a part, in kg where it slides and in kg·m² where it turns: ten times what the
-    /// links that the part joins have there. MuJoCo softens a constraint by the mean of what its bodies weigh in all directions. A light
-    /// body in between, or a thin one that may turn, would let the loop open. The new joint does not move where the loop stays
-    /// closed, so that its armature changes no motion.
+    /// Returns the armature of a new joint next to a part, in kg for a slide and in kg·m² for a hinge: ten times that of the
+    /// links that the part joins. MuJoCo softens a constraint by the mean weight of its bodies in all directions. A light body in
+    /// between, or a thin one that may turn, would let the loop open. The new joint does not move while the loop stays closed, so
+    /// its armature changes no motion.
     fn armature(&self, part: &Part, slides: bool, point: Vector) -> String {
         let felt = |(link, w): (usize, &Weight)| {
             let at = self.origin.places[link].then(&w.place).translation;
@@ -158,7 +158,7 @@ impl<'a> MjcfFile<'a> {
         rounded.unwrap_or(HEAVY).to_string()
     }
 
-    /// The new joints of a joint, in a frame at a place in the world.
+    /// Writes the new joints of a joint, in a frame at a place in the world.
     fn joints(
         &self,
         part: &Part,
@@ -189,7 +189,7 @@ impl<'a> MjcfFile<'a> {
         Ok(out)
     }
 
-    /// Behind the joints of a body.
+    /// Inserts joints after the joints of a body.
     fn in_body(&mut self, e: Element<'a>, freed: Freed<'_>, edits: &mut Edits<'_>) -> Read<()> {
         let body = self.body(e.id);
         let own = self.origin.robot.joints.iter().rev();
@@ -227,7 +227,7 @@ impl<'a> MjcfFile<'a> {
         all.find(|e| e.name() == tag && (name.is_none() || e.attribute("name") == name))
     }
 
-    /// A body in between: it moves on the first body, and is held in its place.
+    /// Inserts a body that moves on the first body and is held in its place.
     fn at_body(
         &mut self,
         e: Element<'a>,
@@ -255,7 +255,7 @@ impl<'a> MjcfFile<'a> {
         Ok(())
     }
 
-    /// The same where sites are held together: the body in between has a copy of the first.
+    /// Inserts a body with a copy of the first site, if sites are held together.
     fn at_site(
         &mut self,
         e: Element<'a>,
@@ -293,7 +293,7 @@ impl<'a> MjcfFile<'a> {
         Ok(())
     }
 
-    /// The lines of a body in between, its mass where its joints are.
+    /// Writes the lines of an inserted body, with its mass at its joints.
     fn whole(
         &self,
         name: &str,
@@ -363,7 +363,7 @@ impl<'a> MjcfFile<'a> {
     }
 }
 
-/// Where the words of a text begin.
+/// Returns the starts of the words of a text.
 fn word_starts(text: &str) -> Vec<usize> {
     let start = text.as_ptr() as usize;
     text.split_whitespace()
@@ -371,7 +371,7 @@ fn word_starts(text: &str) -> Vec<usize> {
         .collect()
 }
 
-/// The elements around each.
+/// Returns the parent of each element.
 fn parents(origin: &Origin) -> Vec<Option<usize>> {
     let mut out = vec![None; origin.document.nodes.len()];
     for (id, node) in origin.document.nodes.iter().enumerate() {

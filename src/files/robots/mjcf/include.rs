@@ -31,7 +31,7 @@ struct Files<'r> {
 }
 
 impl Files<'_> {
-    /// Whether a path may be asked for: it leads down, or up where that is allowed.
+    /// Returns true if a path may be read: it leads down, or up if that is allowed.
     fn reach(&self, file: &str) -> bool {
         let up = |c| matches!(c, Component::ParentDir);
         let plain = |c| matches!(c, Component::Normal(_) | Component::CurDir);
@@ -106,7 +106,7 @@ fn included(
     document.read(&file, xml::utf8(&file, &bytes)?)
 }
 
-/// Whether a path's last part is this file.
+/// Returns true if the last part of a path is this file.
 fn ends_with(path: &str, file: &str) -> bool {
     let last = |p: &str| Path::new(p).file_name().map(ToOwned::to_owned);
     last(path).is_some() && last(path) == last(file) && Path::new(file).components().count() == 1

@@ -85,7 +85,7 @@ fn push(document: &mut Document, at: usize, node: crate::robots::xml::Node) -> R
     Ok(id)
 }
 
-/// A copy of an element and all it holds, its names with an end.
+/// Copies an element and its descendants, with a suffix on their names.
 fn copied(document: &mut Document, id: usize, suffix: &str) -> Read<usize> {
     let node = document.nodes[id].named_on(suffix);
     let children = node.children.clone();

@@ -54,7 +54,7 @@ pub(super) fn read(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Wei
     Ok(weights(robot, stated, &of_shapes, &settings))
 }
 
-/// Returns the weights of links: as stated, by their shapes where nothing else is said, and no less than what the file asks for.
+/// Returns the weights of links: as given, or from their shapes, and at least the minimum of the file.
 fn weights(
     robot: &Robot,
     stated: BTreeMap<usize, Weight>,

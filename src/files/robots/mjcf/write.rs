@@ -18,10 +18,10 @@ use crate::statics::reactions::geometry::Geometry;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The mechanism's free state as MJCF; bodies have the global axes, each its origin at the joint that holds it.
+/// Writes the mechanism's free state as MJCF; bodies have the global axes, and their origin at the joint that holds them.
 ///
 /// # Errors
-/// Never, as far as is known.
+/// No error is known.
 pub(crate) fn mjcf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = MjcfWriter {
         m,
@@ -109,7 +109,7 @@ struct MjcfWriter<'a> {
 }
 
 impl MjcfWriter<'_> {
-    /// The joints of one freedom each that a joint becomes, or a ball.
+    /// Returns the joints of one freedom each that represent a joint, or a ball.
     fn joints(&mut self, j: JointId, sign: f64, pos: Vector) -> Vec<String> {
         let joint = &self.m.joints[j];
         let p = place(self.m, joint);
@@ -157,16 +157,16 @@ impl MjcfWriter<'_> {
         out
     }
 
-    /// Whether a joint that closes a loop is written as a body on it that is welded to the second link.
+    /// Returns true if a joint that closes a loop is written as an extra body that is welded to the second link.
     fn closing_body(&self, j: JointId) -> bool {
         let kind = &self.m.joints[j].joint_type;
         let coupled = self.m.couplings.iter().any(|c| c.end_at(j).is_some());
         !kind.freedoms().is_empty() && (*kind != JointType::Spherical || coupled)
     }
 
-    /// Returns what a body weighs that is welded to `link`, as an attribute list: an equal part of the link, so that the whole moves as
-    /// it would. MuJoCo softens a weld by what its bodies weigh, and would let the loop open at one that weighs next to nothing. What
-    /// is welded to the frame stands still: it weighs as much as the link `other`.
+    /// Returns the weight of a body that is welded to `link`, as an attribute list: an equal part of the link, so that the whole
+    /// moves in the same way. MuJoCo softens a weld by the weight of its bodies, and would let the loop open at a very light one.
+    /// A body welded to the frame does not move: it weighs as much as the link `other`.
     fn weight(&self, link: LinkId, other: LinkId, at: Vector) -> String {
         let of = if link == self.m.frame() { other } else { link };
         let parts = if of == link {
@@ -190,7 +190,7 @@ impl MjcfWriter<'_> {
         }
     }
 
-    /// A joint that closes a loop.
+    /// Writes a joint that closes a loop.
     fn closing(&mut self, j: JointId) {
         let joint = &self.m.joints[j];
         let [a, b] = joint.links;
@@ -272,7 +272,7 @@ impl MjcfWriter<'_> {
         motors.collect()
     }
 
-    /// The bodies on a link.
+    /// Writes the bodies on a link.
     fn below(
         &self,
         link: LinkId,
@@ -304,7 +304,7 @@ impl MjcfWriter<'_> {
     }
 }
 
-/// A joint that follows another.
+/// Writes a joint that follows another.
 fn equality(follows: &str, leads: &str, ratio: f64) -> String {
     format!(
         "    <joint joint1=\"{}\" joint2=\"{}\" polycoef=\"0 {} 0 0 0\"/>\n",

@@ -64,7 +64,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
     Ok(())
 }
 
-/// The frame, in the world, in which axes of a joint's followers are given: of the joint, or of its model before SDF 1.5.
+/// Returns the frame, in the world, in which axes of a joint's followers are given: of the joint, or of its model before SDF 1.5.
 fn axes_frame(
     origin: &Origin,
     model: Element<'_>,

@@ -9,8 +9,8 @@ use crate::robots::sdf::joints::axis;
 use crate::robots::sdf::scene::{SdfScene, absolute, end, located, of_joint};
 use crate::robots::xml::element::Element;
 
-/// Couples the hinges of its parent and of its child on the body that it refers to: the child turns the other way, so many times
-/// as fast. Where there are no such hinges it is left out, which is said.
+/// Couples the hinges of the parent and of the child on the reference body: the child turns the other way, faster by the gear
+/// ratio. If there are no such hinges, the gearbox is omitted and reported.
 pub(crate) fn gearbox(
     e: Element<'_>,
     scope: &str,
@@ -49,7 +49,7 @@ pub(crate) fn gearbox(
     Ok(())
 }
 
-/// The hinge of a link on another about a direction, and the sign of its turn about that.
+/// Returns the hinge of a link on another about a direction, and the sign of its rotation about it.
 fn hinge(robot: &Robot, [on, link]: [usize; 2], about: [f64; 3]) -> Option<(usize, f64)> {
     robot.joints.iter().enumerate().find_map(|(j, p)| {
         let sense = match p.links {

@@ -53,7 +53,7 @@ pub(super) fn expand(document: &mut Document, root: usize, read: Reader<'_>) -> 
     Ok(Expanded { old, scenery })
 }
 
-/// Whether the version is before 1.5; 1.11 comes after 1.9.
+/// Returns true if the version is before 1.5; 1.11 comes after 1.9.
 pub(super) fn is_old(root: Element<'_>) -> bool {
     let version = root.attribute("version").and_then(|v| {
         let (major, minor) = v.trim().split_once('.').unwrap_or((v, "0"));
@@ -62,7 +62,7 @@ pub(super) fn is_old(root: Element<'_>) -> bool {
     version.is_some_and(|v| v < (1, 5))
 }
 
-/// The model that an include names, with what the include says of it; none where it is a light or the floor. And the name.
+/// Returns the model that an include names, with the settings of the include, and the name. `None` for a light or the floor.
 fn included(
     document: &mut Document,
     id: usize,
@@ -117,7 +117,8 @@ fn refuse(e: Element<'_>, uri: &str, why: &str, remedy: &str) -> ImportError {
     e.fail(None, unsupported(&element, why, remedy))
 }
 
-/// No file within itself, none too deep, not too many, and nothing that changes what is in the model.
+/// Checks that no file includes itself, that files are not too deep or too many, and that nothing changes the content of the
+/// model.
 fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> Read<()> {
     if open.iter().any(|o| o == uri) {
         let remedy = "remove one of the includes";
@@ -135,7 +136,7 @@ fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> 
     Ok(())
 }
 
-/// Gives a model the pose, the name and the hold that its include says in place of its own, and its plugins besides.
+/// Gives a model the pose, the name and the fixation of its include instead of its own, and adds the plugins of the include.
 fn said_by_include(document: &mut Document, include: usize, model: usize) {
     let e = document.element(include);
     let own = |tag: &str| e.child(tag).map(|c| c.id);

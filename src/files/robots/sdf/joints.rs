@@ -13,7 +13,7 @@ pub(crate) const TYPES: &str =
 /// A parent frame this far from the joint, as a fraction of the lengths in the file, is where the joint is to go.
 pub(crate) const APART: f64 = 1e-6;
 
-/// The direction of `<axis>` or `<axis2>` in the world.
+/// Returns the direction of `<axis>` or `<axis2>` in the world.
 pub(crate) fn axis(
     e: Element<'_>,
     tag: &str,
@@ -108,9 +108,9 @@ pub(crate) fn joint(
     Ok(())
 }
 
-/// Whether a name is that of a frame rather than a link. A parent that is a frame away from the joint: by the specification
-/// the frame only names its link, and the model is as drawn; where it is drawn in parts, the joint is to put the frame onto
-/// the child.
+/// Returns true if a name is that of a frame rather than a link. If the parent is a frame away from the joint, the frame only
+/// names its link by the specification, and the model is as drawn. If it is drawn in parts, the joint moves the child onto the
+/// frame.
 fn is_frame(name: &str, scene: &SdfScene<'_>) -> bool {
     scene.placed.get(name).is_some_and(|p| p.link.is_none())
 }
@@ -152,7 +152,7 @@ fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
     robot.report.approximate(&e.label(), what);
 }
 
-/// Notes the coupling of a joint whose axis follows that of another, which it gives the name of.
+/// Records the coupling of a joint whose axis follows that of another, and returns the name of this joint.
 fn mimic(e: Element<'_>, name: &str, scope: &str, robot: &mut Robot) -> Read<Option<String>> {
     // Drake's own has its numbers as attributes.
     let mimics = ["mimic", "drake:mimic"];
@@ -207,7 +207,7 @@ pub(crate) fn screw_pitch(e: Element<'_>) -> Read<f64> {
     Ok(-1.0 / radians)
 }
 
-/// A universal joint, or two revolute ones where the axes are not perpendicular.
+/// Reads a universal joint, or two revolute ones if the axes are not perpendicular.
 pub(crate) fn two_axes(
     e: Element<'_>,
     mut part: Part,
@@ -244,7 +244,7 @@ pub(crate) fn two_axes(
     Ok(())
 }
 
-/// Drake's weld of two frames.
+/// Reads Drake's weld of two frames.
 pub(crate) fn weld(
     e: Element<'_>,
     scope: &str,

@@ -21,7 +21,7 @@ pub(crate) struct Placed<'a> {
 }
 
 impl<'a> Placed<'a> {
-    /// What is no link, its place in the world not known yet.
+    /// Creates an element that is not a link, whose place in the world is not known yet.
     pub(crate) fn new(
         element: Element<'a>,
         relative_to: String,
@@ -61,7 +61,7 @@ pub(crate) struct SdfScene<'a> {
 /// Ends the name of the frame of a joint that is called as a link beside it is.
 pub(crate) const BESIDE: &str = "~joint";
 
-/// The place of a joint, once known.
+/// Returns the place of a joint, once known.
 pub(crate) fn of_joint(scene: &SdfScene<'_>, e: Element<'_>, name: &str) -> Option<RigidMotion> {
     let own = |p: &&Placed<'_>| p.element.id == e.id;
     let found = scene.placed.get(name).filter(own);
@@ -69,7 +69,7 @@ pub(crate) fn of_joint(scene: &SdfScene<'_>, e: Element<'_>, name: &str) -> Opti
     found.and_then(|p| p.world)
 }
 
-/// A name as seen from a scope.
+/// Returns a name as seen from a scope.
 pub(crate) fn absolute(scope: &str, name: &str) -> String {
     if name == "world" {
         name.to_owned()
@@ -136,7 +136,7 @@ pub(crate) fn resolve(scene: &mut SdfScene<'_>) -> Read<()> {
     Ok(())
 }
 
-/// The link that a name moves with, and the name's place in the world.
+/// Returns the link that a name moves with, and the name's place in the world.
 pub(crate) fn moves_with(
     scene: &SdfScene<'_>,
     name: &str,
@@ -179,7 +179,7 @@ pub(crate) fn located(
     })
 }
 
-/// Parent or child of a joint: the element and the name, which old files have as an attribute.
+/// Returns the parent or child of a joint: the element and the name, which old files have as an attribute.
 pub(crate) fn end<'a>(e: Element<'a>, tag: &str) -> Read<(Element<'a>, &'a str)> {
     let name = |c: Element<'a>| match c.text() {
         "" => c.attribute("link").unwrap_or(""),

@@ -27,8 +27,8 @@ struct SdfWriter<'a> {
 
 const WORLD: &str = "world";
 
-/// The mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
-/// know become joints in series through light links.
+/// Writes the mechanism's free state as SDF 1.9. All links have the global axes; joints of several freedoms that SDF does not
+/// have become joints in series through light links.
 pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
     let joints: Vec<JointId> = m.joints_in(StateId::FREE).collect();
     let written: Vec<bool> = m.joint_ids().map(|j| joints.contains(&j)).collect();
@@ -137,7 +137,7 @@ impl SdfWriter<'_> {
         self.series(j, &all, [a, b], p.point);
     }
 
-    /// Freedoms in series, through light links; a fixed joint where there are none.
+    /// Writes freedoms in series, through light links; a fixed joint if there are none.
     fn series(&mut self, j: JointId, all: &[Single], [mut from, end]: [String; 2], at: [f64; 3]) {
         let id = self.ids[j].clone();
         if all.is_empty() {
@@ -167,7 +167,7 @@ impl SdfWriter<'_> {
         }
     }
 
-    /// An axis with what it follows, where it does.
+    /// Writes an axis with the joint it follows, if any.
     fn following(&self, j: JointId, axis: String) -> String {
         match self.follows[j] {
             Some(f) => axis.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
@@ -191,7 +191,8 @@ fn axis(tag: &str, d: [f64; 3]) -> String {
     )
 }
 
-/// The SDF joint of a type, where there is one, and what goes into it; `back` where it is passed from its second link.
+/// Returns the SDF joint of a type and its content, or `None` if there is none; `back` is true if it is passed from its second
+/// link.
 fn known(t: &JointType, p: &JointAxes, back: bool) -> Option<(&'static str, String)> {
     let [x, _, z] = p.axes;
     let (first, second) = if back { (x, z) } else { (z, x) };

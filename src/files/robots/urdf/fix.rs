@@ -8,7 +8,7 @@ use crate::robots::mechanism::series_of_single_joints::{comment, escape, numbers
 use crate::robots::problem::Read;
 use crate::robots::xml::element::Element;
 
-/// Gives joints freedoms. What is put in between stands before the joint: its child, its name and what follows it stay.
+/// Gives joints freedoms. Inserted joints come before the joint: its child, its name and its followers stay.
 pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
     let light = Light::in_description(&origin.document).urdf();
     for &(part, e, freed) in all {
@@ -60,7 +60,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
 /// URDF wants limits of what slides.
 const LIMIT: &str = "<limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>";
 
-/// The place that an element gives, as the origin of a joint.
+/// Returns the placement that an element gives, as the origin of a joint.
 fn origin_of(at: Element<'_>) -> String {
     let given = ["xyz", "rpy", "quat_xyzw"].into_iter().filter_map(|key| {
         let value = at.attribute(key)?;

@@ -11,10 +11,10 @@ use crate::robots::sdf::named_place;
 use crate::robots::sdf::scene::{Placed, SdfScene, end, insert, resolve};
 use crate::robots::xml::element::Element;
 
-/// Reads what the `<gazebo>` elements below a root add. All links and joints of the URDF are read by now.
+/// Reads the additions of the `<gazebo>` elements below a root. All links and joints of the URDF are read before.
 ///
 /// # Errors
-/// Where a joint is not one that SDF has.
+/// Returns an error if SDF has no such joint.
 pub(crate) fn read(root: Element<'_>, robot: &mut Robot) -> Read<()> {
     let inside = root
         .named("gazebo")
@@ -48,7 +48,7 @@ fn names_world(joint: Element<'_>) -> bool {
         .any(|t| end(joint, t).is_ok_and(|(_, name)| name == "world"))
 }
 
-/// The links where they are drawn.
+/// Returns the links where they are drawn.
 fn placed<'a>(root: Element<'a>, robot: &Robot) -> Read<SdfScene<'a>> {
     let mut scene = SdfScene::default();
     scene.world = robot.links.iter().position(|l| l == "world").unwrap_or(0);

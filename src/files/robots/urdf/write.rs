@@ -31,10 +31,10 @@ struct UrdfWriter<'a> {
     body: String,
 }
 
-/// The mechanism's free state as URDF. Every link's frame is at the joint that holds it, with the global axes.
+/// Writes the mechanism's free state as URDF. Every link's frame is at the joint that holds it, with the global axes.
 ///
 /// # Errors
-/// Where a joint screws: URDF has no such joint.
+/// Returns an error if a joint is helical, because URDF has no such joint.
 pub(crate) fn urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
     let mut w = UrdfWriter {
         m,
@@ -60,7 +60,7 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
 }
 
 impl UrdfWriter<'_> {
-    /// A link with its frame at a point; its name.
+    /// Writes a link with its frame at a point, and returns its name.
     fn link(&mut self, l: LinkId, at: [f64; 3]) -> String {
         let name = self.links.fit(&self.m.links[l].id);
         // What stands still needs no mass, and some readers want none of it.
@@ -82,7 +82,7 @@ impl UrdfWriter<'_> {
         name
     }
 
-    /// A light link between the freedoms of a joint; its name.
+    /// Writes a light link between the freedoms of a joint, and returns its name.
     fn between(&mut self, id: &str, place: usize) -> String {
         let name = self.links.fit(&format!("{id}~{place}~link"));
         let light = &self.light;
@@ -106,7 +106,7 @@ impl UrdfWriter<'_> {
         }
     }
 
-    /// A joint of the tree with the link that hangs on it.
+    /// Writes a joint of the tree with its child link.
     fn branch(&mut self, step: &TreeStep) -> Result<(), ExportError> {
         let j = step.joint;
         let (mut holder, origin) = self.placed[step.from].clone().unwrap_or_default();
@@ -136,8 +136,8 @@ impl UrdfWriter<'_> {
         Ok(())
     }
 
-    /// A joint that closes a loop: all but the last of its freedoms are joints of the tree; a ball, and what is rigid, close it
-    /// alone.
+    /// Writes a joint that closes a loop: all but the last of its freedoms are joints of the tree; a ball or a rigid joint closes
+    /// it directly.
     fn closing(&mut self, j: JointId) -> Result<(), ExportError> {
         let joint = &self.m.joints[j];
         let p = place(self.m, joint);
@@ -220,7 +220,7 @@ const LIMIT: &str = "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\
 
 type Kind = (&'static str, Option<[f64; 3]>);
 
-/// The joints in series that a joint becomes.
+/// Returns the joints in series that represent a joint.
 fn kinds(m: &Mechanism, j: JointId, sign: f64) -> Result<Vec<Kind>, ExportError> {
     let joint = &m.joints[j];
     let p = place(m, joint);

@@ -135,8 +135,7 @@ impl Borne {
     /// Computes the loads at a pose, with the first drive `drive` away from the pose of the file.
     ///
     /// # Errors
-    /// Returns an error if the drives cannot move at the stated speeds, or if a link that states its inertia for a
-    /// plane turns in space.
+    /// Returns an error if the drives cannot move at the given speeds, or if a link with a planar inertia rotates in space.
     pub(crate) fn new(
         m: &Mechanism,
         state: StateId,

@@ -19,7 +19,7 @@ fn term(word: &str, at: &Place<'_>) -> Option<Term> {
     found
 }
 
-/// The ranking a file asks for, if any.
+/// Returns the ranking that a file asks for, if any.
 pub(crate) fn ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Option<Ranking> {
     let entry = file.ranking.as_ref()?;
     let at = &out.key("ranking");
@@ -32,7 +32,7 @@ pub(crate) fn ranking(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Op
     })
 }
 
-/// How clearances add up.
+/// Returns the rule for adding clearances.
 fn clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
     match entry.clearance.as_deref() {
         None | Some("worst") => ClearanceSum::Worst,
@@ -45,7 +45,7 @@ fn clearance(entry: &RankingEntry, at: &Place<'_>) -> ClearanceSum {
     }
 }
 
-/// The terms with their weights.
+/// Returns the terms with their weights.
 fn terms(entry: &RankingEntry, at: &Place<'_>) -> Vec<(Term, f64)> {
     let mut terms: Vec<(Term, f64)> = Vec::new();
     for (at, t) in at.most(MOST, &entry.terms, "terms") {
@@ -69,7 +69,7 @@ fn terms(entry: &RankingEntry, at: &Place<'_>) -> Vec<(Term, f64)> {
     terms
 }
 
-/// The bounds that variants must keep.
+/// Returns the bounds that variants must meet.
 fn limits(entry: &RankingEntry, at: &Place<'_>) -> Vec<Limit> {
     let mut limits = Vec::new();
     for (at, l) in at.most(MOST, &entry.limits, "limits") {
@@ -84,7 +84,7 @@ fn limits(entry: &RankingEntry, at: &Place<'_>) -> Vec<Limit> {
     limits
 }
 
-/// The states that count in the ranking: free, and those in which the gripper holds its part.
+/// Returns the states that count in the ranking: free, and those in which the gripper holds its part.
 fn ranked_states(entry: &RankingEntry, m: &Mechanism, at: &Place<'_>) -> Vec<StateId> {
     let grip = m.loads.grip.as_ref().and_then(|g| g.contacts);
     let of_grip = grip.and_then(|c| m.joints[c[0]].states.as_ref());
@@ -105,7 +105,7 @@ fn ranked_states(entry: &RankingEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Sta
     states
 }
 
-/// What a file says of joint types: of what they bear, and of what they cost in thousandths.
+/// Returns the figures of joint types in a file: their capacities, and their costs in thousandths.
 pub(crate) fn joint_types(
     file: &MechanismFile,
     mechanism: &Mechanism,
@@ -146,7 +146,7 @@ pub(crate) fn joint_types(
     (found, costs)
 }
 
-/// Whether what a type bears lies in range.
+/// Checks that the capacities of a type are in range.
 fn check_figures(entry: &JointTypeEntry, at: &Place<'_>) {
     let above = (f64::MIN_POSITIVE, "a number above 0, up to 1e12");
     for (k, what, value, (least, allowed)) in [

@@ -99,12 +99,12 @@ impl Place<'_> {
     }
 }
 
-/// Whether a coordinate has a size that is calculated with; 0 has.
+/// Returns true if a coordinate is 0 or of a size that can be calculated with.
 fn is_usual(size: f64) -> bool {
     size == 0.0 || (RANGE.0..=RANGE.1).contains(&size)
 }
 
-/// A number as it is written, or in short where that takes more than a line has room for.
+/// Formats a number as written, or shortened if it does not fit into a line.
 fn short(e: &Expr) -> String {
     let text = e.to_string();
     match text.len() {

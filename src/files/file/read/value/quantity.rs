@@ -163,7 +163,7 @@ impl Place<'_> {
     }
 }
 
-/// The expression in an angle and the radians in one of it.
+/// Returns the expression of an angle and its radians per unit.
 fn angle_text(text: &str) -> Option<(Coordinate, f64)> {
     let text = text.trim();
     let expression = |t: &str| Coordinate::Expression(t.trim().to_owned());

@@ -82,7 +82,8 @@ fn joint_at(joint: &mut Joint, lengths: Option<f64>, directions: Option<f64>, ow
     }
 }
 
-/// A point: all of it where it has a tolerance of its own, else the numbers of it that are written as such, but for a whole 0.
+/// Sets the uncertainty of a point: of all its numbers if it has its own tolerance, otherwise of those written as numbers, except
+/// whole 0.
 fn put(point: &mut [Expr; 3], of_file: Option<f64>, own: Option<f64>) {
     for e in point {
         let half =
@@ -91,7 +92,7 @@ fn put(point: &mut [Expr; 3], of_file: Option<f64>, own: Option<f64>) {
     }
 }
 
-/// A direction within so many radians: its numbers, but for whole 0 and 1.
+/// Sets the uncertainty of a direction in radians: of its numbers, except whole 0 and 1.
 fn turn(v: &mut [Expr; 3], half: f64) {
     let of_length = half * length(real(v));
     for e in v {
@@ -101,7 +102,7 @@ fn turn(v: &mut [Expr; 3], half: f64) {
     }
 }
 
-/// A pitch, or what a lead makes it.
+/// Sets the uncertainty of a pitch, or of the pitch that follows from a lead.
 fn pitch(e: &mut Expr, half: f64) {
     let WrittenNumber::Decimal(digits) = e.written() else {
         return;

@@ -55,7 +55,7 @@ fn cam(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
     })
 }
 
-/// Time of a whole oscillation.
+/// Returns the time of a whole oscillation.
 fn period(t: &Place<'_>, e: &DriveEntry) -> f64 {
     let whole = t.positive("period", &e.period, 1.0);
     let half = t.positive("swing_time", &e.swing_time, 1.0);
@@ -68,7 +68,7 @@ fn period(t: &Place<'_>, e: &DriveEntry) -> f64 {
     1.0
 }
 
-/// The diameters that bars come in, ascending.
+/// Returns the available diameters of bars, ascending.
 fn diameters(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
     let at = t.key("diameters");
     let entries = at.most(MOST, &e.diameters, "diameters");
@@ -78,7 +78,7 @@ fn diameters(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Vec<f64> {
     diameters
 }
 
-/// The angle missing after a swing without the cam, where it was measured.
+/// Returns the angle missing after a swing without the cam, if it was measured.
 fn missing_angle(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
     let key = "missing_angle";
     let missing = e.missing_angle.as_ref().map(|c| t.key(key).angle(key, c));
@@ -89,7 +89,7 @@ fn missing_angle(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Option<f64> {
     missing
 }
 
-/// The drive of a file, where it has one.
+/// Returns the drive of a file, if it has one.
 pub(crate) fn drive(
     file: &MechanismFile,
     unit: f64,
@@ -135,7 +135,7 @@ pub(crate) fn drive(
 /// Most pieces of a push.
 const PIECES: usize = 1000;
 
-/// The cam's push over a swing of half as much as twice `twist`.
+/// Returns the cam's push over a swing of `twist` to either side.
 fn push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
     if let Some(list) = &e.feed_moments {
         return pieces(t, e, list, twist);

@@ -79,7 +79,7 @@ fn part_mass(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<PartMass> {
     None
 }
 
-/// Gravity in the gripper's axes; down where left out.
+/// Returns gravity in the gripper's axes; down by default.
 fn gravity(t: &Place<'_>, e: &GripEntry) -> Toward {
     match &e.gravity {
         None => Toward::Fixed([0.0, -GRAVITY, 0.0]),
@@ -112,7 +112,7 @@ fn accelerations(t: &Place<'_>, e: &GripEntry) -> Option<Vec<Toward>> {
     Some(all)
 }
 
-/// What the gripper must hold, where the file says what the part weighs.
+/// Returns the load of the gripper, if the file gives the weight of the part.
 fn load(t: &Place<'_>, e: &GripEntry, unit: f64) -> Option<GripLoad> {
     let mass = part_mass(t, e, unit)?;
     let Some(friction) = &e.friction else {
@@ -200,7 +200,7 @@ struct Clamp<'a> {
 }
 
 impl Clamp<'_> {
-    /// Whether each contact is between the part and its lever, and all act in the same states.
+    /// Checks that each contact is between the part and its lever, and that all act in the same states.
     fn check_contacts(&self, at: &Place<'_>) {
         let m = self.mechanism;
         for (i, (at, &j)) in at.entries(&self.contacts).enumerate() {
@@ -226,7 +226,7 @@ impl Clamp<'_> {
         }
     }
 
-    /// Whether the levers turn on the frame.
+    /// Checks that the levers turn on the frame.
     fn check_pivots(&self, at: &Place<'_>) {
         let m = self.mechanism;
         for (at, &j) in at.entries(&self.levers) {
@@ -237,7 +237,7 @@ impl Clamp<'_> {
         }
     }
 
-    /// Whether the contacts are four, and nothing else holds the part.
+    /// Returns true if there are four contacts and nothing else holds the part.
     fn holds_alone(&self) -> bool {
         let m = self.mechanism;
         let further = |j: JointId| {
@@ -247,7 +247,7 @@ impl Clamp<'_> {
     }
 }
 
-/// The joints that stand for the contacts: each joins the part to the lever that is to touch it there.
+/// Returns the joints that represent the contacts; each joins the part to its lever.
 fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Option<[JointId; 4]> {
     let ids = e.contacts.as_ref()?;
     let Transmission::Joints(levers) = spec.transmission else {
@@ -278,7 +278,7 @@ fn contacts(t: &Place<'_>, e: &GripEntry, spec: &GripSpec, m: &Mechanism) -> Opt
     Some(contacts)
 }
 
-/// Where the pivots of the levers stand.
+/// Returns the positions of the pivots of the levers.
 fn pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
     let fixed = t.word("pivots", &e.pivots, &[("fixed", true), ("nominal", false)]);
     let distance = t.not_negative("pivot_distance", &e.pivot_distance, unit);
@@ -293,7 +293,7 @@ fn pivots(t: &Place<'_>, e: &GripEntry, unit: f64) -> Pivots {
     }
 }
 
-/// The gripper of a file, where it has one.
+/// Returns the gripper of a file, if it has one.
 pub(crate) fn grip(
     file: &MechanismFile,
     unit: f64,

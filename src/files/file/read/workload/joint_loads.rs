@@ -9,7 +9,7 @@ use crate::model::loads::{ExternalMoment, Face, Misalignment, Stiffness};
 use crate::model::mechanism::Mechanism;
 use crate::statics::reactions::contact::object_at;
 
-/// Moments from outside.
+/// Returns the external moments.
 pub(crate) fn moments(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec<ExternalMoment> {
     let mut found = Vec::new();
     for (at, e) in at.most(MAX_FORCES, &entry.moment, "moments") {
@@ -25,7 +25,7 @@ pub(crate) fn moments(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> V
     found
 }
 
-/// Faces of contacts.
+/// Returns the faces of contacts.
 pub(crate) fn faces(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec<Face> {
     let mut found = Vec::new();
     for (at, e) in at.most(MAX_FORCES, &entry.contact, "contacts") {
@@ -48,7 +48,7 @@ pub(crate) fn faces(entry: &WorkloadEntry, m: &Mechanism, at: &Place<'_>) -> Vec
     found
 }
 
-/// Stiffness by joint type.
+/// Returns the stiffness by joint type.
 pub(crate) fn stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, Stiffness)> {
     let each = entry.stiffness.iter().map(|(name, s)| {
         let at = at.key(name);
@@ -71,7 +71,7 @@ pub(crate) fn stiffness(entry: &WorkloadEntry, at: &Place<'_>) -> Vec<(String, S
     each.collect()
 }
 
-/// Joints made askew.
+/// Returns the misaligned joints.
 pub(crate) fn misalignments(
     entry: &WorkloadEntry,
     m: &Mechanism,

@@ -13,12 +13,12 @@ use crate::model::mechanism::Mechanism;
 /// What inertias and masses may be.
 const NOT_NEGATIVE: &str = "a number from 0 to 1e12";
 
-/// Whether a mass or an inertia is in range.
+/// Returns true if a mass or an inertia is in range.
 fn fits(x: f64) -> bool {
     (0.0..=LARGEST).contains(&x)
 }
 
-/// Inertia about the mass centre, where an entry states one that is in range.
+/// Returns the inertia about the centre of mass, if an entry gives one that is in range.
 fn inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia> {
     let list = match entry? {
         InertiaEntry::Plane(x) if fits(*x) => return Some(Inertia::Plane(*x)),
@@ -41,7 +41,7 @@ fn inertia(entry: Option<&InertiaEntry>, at: &Place<'_>) -> Option<Inertia> {
     }
 }
 
-/// The mass of a link, where its entry states one.
+/// Returns the mass of a link, if its entry gives one.
 pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> {
     let centre = entry.centre.as_ref().map(|c| at.key("centre").vector(c));
     let inertia = inertia(entry.inertia.as_ref(), &at.key("inertia"));
@@ -65,7 +65,7 @@ pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> 
     None
 }
 
-/// The `[workload]` table.
+/// Reads the `[workload]` table.
 pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> Loads {
     let (at, entry) = (&out.key("workload"), &file.workload);
     let forces = at.key("force");
@@ -94,7 +94,7 @@ pub(crate) fn loads(file: &MechanismFile, mechanism: &Mechanism, out: &Findings)
     }
 }
 
-/// A force from outside, where its link is known.
+/// Returns an external force, if its link is known.
 fn force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<ExternalForce> {
     let point = at.key("point").vector(&f.point);
     let force = at.key("force").vector(&f.force);
@@ -115,7 +115,7 @@ fn force(f: &ForceEntry, mechanism: &Mechanism, at: &Place<'_>) -> Option<Extern
     })
 }
 
-/// The speeds of the drives, no more of them than there are drives.
+/// Returns the speeds of the drives, at most one per drive.
 fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_>) -> Vec<f64> {
     let speeds = match entry {
         None => Vec::new(),

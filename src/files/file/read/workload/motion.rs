@@ -12,12 +12,12 @@ pub(crate) const MAX_STEPS: usize = 100_000;
 /// Largest mass, inertia or speed.
 pub(in crate::file::read) const LARGEST: f64 = 1e12;
 
-/// A drive position in radians or the file's length unit: "1.5", "1.5rad", "360deg".
+/// Parses a drive position in radians or the file's length unit: "1.5", "1.5rad", "360deg".
 fn position(text: &str) -> Option<f64> {
     with_units(text, &[("deg", 1f64.to_radians()), ("rad", 1.0)])
 }
 
-/// A drive speed in rad/s or the file's length unit per second: "6.28", "60rpm", "30deg/s".
+/// Parses a drive speed in rad/s or the file's length unit per second: "6.28", "60rpm", "30deg/s".
 fn speed(text: &str) -> Option<f64> {
     let rpm = std::f64::consts::TAU / 60.0;
     let units = [("rpm", rpm), ("deg/s", 1f64.to_radians()), ("rad/s", 1.0)];
@@ -29,10 +29,10 @@ fn speed(text: &str) -> Option<f64> {
 #[error("stroke {0:?} is not FROM:TO:STEPS, such as 0:360deg:72 with 1 to {MAX_STEPS} steps")]
 pub struct NoStroke(String);
 
-/// A range and its steps, such as "0:360deg:72".
+/// Parses a range and its steps, such as "0:360deg:72".
 ///
 /// # Errors
-/// Where it is none.
+/// Returns an error if the text is not a stroke.
 pub fn stroke(text: &str) -> Result<Stroke, NoStroke> {
     let parts: Vec<&str> = text.split(':').collect();
     let parsed = match parts[..] {

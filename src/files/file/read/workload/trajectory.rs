@@ -24,7 +24,7 @@ struct StepColumns {
 }
 
 impl StepColumns {
-    /// The columns by the names in the first line, or what is wrong with those.
+    /// Returns the columns by the names in the first line, or describes what is wrong with these.
     fn of(names: &StringRecord) -> Result<StepColumns, String> {
         if let Some(unknown) = names.iter().find(|n| !COLUMNS.contains(n)) {
             return Err(format!("unknown column {unknown:?}"));
@@ -55,7 +55,7 @@ struct Figures<'a> {
 }
 
 impl Figures<'_> {
-    /// The number in a column, `least` or above, or what is wrong with it.
+    /// Returns the number in a column, at least `least`, or describes what is wrong with it.
     fn number(&self, column: usize, least: f64) -> Result<f64, String> {
         let text = self.record.get(column).unwrap_or("");
         let found = text
@@ -66,7 +66,7 @@ impl Figures<'_> {
         found.ok_or_else(|| format!("{name} is {text:?}; give a number of at most 1e6 in size"))
     }
 
-    /// The step that the line stands for, diameters in `unit` metres.
+    /// Returns the step of the line, with diameters in `unit` metres.
     fn step(&self, columns: &StepColumns, unit: f64) -> Result<MotionStep, String> {
         let vector = |[x, y, z]: [usize; 3]| -> Result<[f64; 3], String> {
             Ok([
@@ -90,7 +90,7 @@ impl Figures<'_> {
 /// Reads a motion; accelerations in m/s² in the gripper's axes, diameters in `unit` metres.
 ///
 /// # Errors
-/// [`TrajectoryError`].
+/// Returns a [`TrajectoryError`].
 pub fn trajectory(file: &str, bytes: &[u8], unit: f64) -> Result<Vec<MotionStep>, TrajectoryError> {
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)

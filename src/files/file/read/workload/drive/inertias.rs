@@ -16,7 +16,7 @@ pub(super) fn lacks(t: &Place<'_>, other: &'static str) {
     t.add(ProblemKind::KeyNeeds { key, other });
 }
 
-/// Inertia of a link about the axis it turns on the frame about.
+/// Returns the inertia of a link about the axis of its joint with the frame.
 fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Mechanism>) -> Option<f64> {
     let key = "disc_link";
     let Some(m) = mechanism else {
@@ -49,7 +49,7 @@ fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Mechanism
     Some(about + body.mass * (dot(from, from) - along * along).max(0.0))
 }
 
-/// Inertia of the bare disc, by its figure or by its link.
+/// Returns the inertia of the bare disc, from its figure or its link.
 fn disc_inertia(
     t: &Place<'_>,
     e: &DriveEntry,

@@ -8,7 +8,7 @@ use crate::model::drive::ProgrammeStep;
 /// Most steps of a programme.
 pub(in crate::file::read) const MOST: usize = 10_000;
 
-/// So many swings, of both discs in turn or of the second alone, with a dwell after each where one is given.
+/// Returns the given number of swings, of both discs in turn or only of the second, with a dwell after each if one is given.
 #[must_use]
 pub(crate) fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<ProgrammeStep> {
     let mut steps = Vec::new();
@@ -20,7 +20,7 @@ pub(crate) fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<
     steps
 }
 
-/// The steps of a file: those it lists, or as many swings as it asks for.
+/// Returns the steps of a file: those it lists, or the number of swings it asks for.
 pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     let time = Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s");
     let dwell = t.optional("dwell", &e.dwell, 1.0, time);
@@ -51,7 +51,7 @@ pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
     steps
 }
 
-/// The steps of a file that gives the number of swings and the dwell after each.
+/// Returns the steps of a file that gives the number of swings and the dwell after each.
 fn swings(t: &Place<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeStep> {
     let ways = [("stepwise", true), ("reversing", false)];
     let stepwise = t.word("motion", &e.motion, &ways);
@@ -62,7 +62,7 @@ fn swings(t: &Place<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeSte
     })
 }
 
-/// A step by its words: "1" or "2", a disc swinging, or "wait 0.3", a dwell in s.
+/// Parses a step: "1" or "2" for a disc that swings, or "wait 0.3" for a dwell in s.
 fn step(text: &str) -> Option<ProgrammeStep> {
     match text.trim() {
         "1" => Some(ProgrammeStep::Swing(0)),
