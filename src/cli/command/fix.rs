@@ -124,7 +124,7 @@ fn reservations(imported: &Imported, after: &StateAnalysis, lasting: usize) -> S
         );
     }
     if imported.origin.is_of_this_pose() {
-        lines += "  figures hold in the pose of the file only, as joints are open or assumed there; `ozols lint OUT --assemble` closes them\n";
+        lines += "  figures hold in the pose of the file only, because joints are open there or have the freedoms of that pose; `ozols lint OUT --assemble` closes them\n";
     }
     if let Some((_, most)) = after.at_most() {
         lines += &format!(

@@ -58,7 +58,7 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
                         Err(passed) => {
                             let good = passed
                                 .rigid
-                                .then(|| ("no redundant constraints".to_owned(), Tone::Good));
+                                .then(|| ("nothing is redundant".to_owned(), Tone::Good));
                             (passed.text(), good)
                         }
                         Ok(lint) => {

@@ -5,7 +5,7 @@
 use crate::file::locate::{Document, DocumentStep, index, key};
 use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, Unloading};
 
-/// Puts the text of decimals that end with a zero in place of their doubles; it is read as an expression, of the same value.
+/// Replaces the doubles of decimals that end with a zero by their text, which is read as an expression of the same value.
 ///
 /// # Complexity
 /// Where a coordinate is a decimal and the text has such a number, it is read once more.

@@ -41,7 +41,7 @@ pub struct Checked {
     pub warnings: Warnings,
 }
 
-/// Reads a mechanism and says what is doubtful in its file; names that end in `.json` are JSON, all others TOML.
+/// Reads a mechanism and returns the warnings of its file; names that end in `.json` are JSON, all others TOML.
 ///
 /// # Complexity
 /// That of the contour bases of all states, and O(p²) for p joints.

@@ -144,7 +144,7 @@ fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
     })
 }
 
-/// Ranks relations by how much they state about two joints.
+/// Returns the priority of a relation: how much it states about two joints.
 fn rank(relation: Relation) -> usize {
     match relation {
         Relation::Zero => 0,

@@ -103,7 +103,7 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-/// Marks the joint that an actuator drives, or those that it pulls by a tendon.
+/// Records the joint that an actuator drives, or those that it pulls by a tendon.
 fn actuator(a: Element<'_>, root: Element<'_>, robot: &mut Robot) {
     let name = a.attribute("name");
     // Whichever frame it acts in.

@@ -113,7 +113,7 @@ fn models<'a>(
     Ok(())
 }
 
-/// Places links and frames in the world, and adds a fixed joint for each link of a static model.
+/// Computes the places of links and frames in the world, and adds a fixed joint for each link of a static model.
 fn place_links(scene: &SdfScene<'_>, robot: &mut Robot) {
     for p in scene.placed.values() {
         if let (Some(l), Some(w)) = (p.link, p.world) {

@@ -91,7 +91,7 @@ fn link(e: Element<'_>, robot: &mut Robot) -> Read<()> {
     Ok(())
 }
 
-/// Marks the joints that a transmission drives.
+/// Records the joints that a transmission drives.
 fn transmission(e: Element<'_>, robot: &mut Robot) {
     for j in e.named("joint").filter_map(|j| j.attribute("name")) {
         match robot.joints.iter_mut().find(|p| p.id == j) {

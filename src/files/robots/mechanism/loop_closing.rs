@@ -84,11 +84,11 @@ pub(crate) fn worst(gaps: &[Gap], size: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Changes the joint values so that the loops close, staying near the current values. Returns the largest gap left and the number
+/// Adjusts the joint values so that the loops close, staying near the current values. Returns the largest gap left and the number
 /// of joints outside their limits.
 ///
-/// Of several starts the first that closes with all joints within their limits is taken, else the one that breaks the
-/// fewest limits, else the first that comes as near as rounded coordinates do, else the values stay.
+/// It tries several starts and takes the first that closes with all joints within their limits. If there is none, it takes the
+/// one that breaks the fewest limits, then the first that comes as near as rounded coordinates allow; otherwise the values stay.
 pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     let size = size(robot);
     let first: Vec<Vec<f64>> = robot.joints.iter().map(|j| j.values.clone()).collect();

@@ -109,7 +109,7 @@ fn table(kind: &JointType, more: &[(bool, Vector)]) -> OptionEntry {
     }))
 }
 
-/// Names a direction: "y", or "(0.60 0.80 0.00)".
+/// Returns the name of a direction: "y", or "(0.60 0.80 0.00)".
 fn line(d: Vector) -> String {
     let along = (0..3).find(|&i| d[i].abs() > 1.0 - 1e-9);
     match along {

@@ -136,7 +136,7 @@ fn may_be_included(e: Element<'_>, uri: &str, open: &[String], count: usize) -> 
     Ok(())
 }
 
-/// Gives a model the pose, the name and the fixation of its include instead of its own, and adds the plugins of the include.
+/// Gives a model the pose, the name and the fixation of its include, and adds the plugins of the include.
 fn said_by_include(document: &mut Document, include: usize, model: usize) {
     let e = document.element(include);
     let own = |tag: &str| e.child(tag).map(|c| c.id);
