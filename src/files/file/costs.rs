@@ -1,4 +1,5 @@
-//! Costs by name: of joint types, of options, of a change itself; in a mechanism's file under `[search.costs]`, or in a file beside it.
+//! Costs by name: of joint types, of options, and of a change itself. They are given in a mechanism's file under
+//! `[search.costs]`, or in a separate file.
 
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::{Findings, Place};

@@ -52,7 +52,7 @@ fn ends_with_zero(text: &str) -> bool {
     (0..bytes.len()).filter(ends).any(decimal)
 }
 
-/// What is asked of each number, with its path.
+/// A visitor of each number, with its path.
 type Visit<'v> = &'v mut dyn FnMut(&[DocumentStep], &mut Coordinate);
 
 /// Visits every number that places a joint or a point, or relates two motions, and the parameters that these may contain.

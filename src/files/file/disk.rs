@@ -1,9 +1,9 @@
-//! Files on the disk, read no further than a bound: the one way that files of any size are read by. Each is noted as read.
+//! Files on the disk, read only up to a bound; all files of any size are read in this way. Each is recorded as read.
 //!
-//! Which file a name stands for, and which files were read: what a command reads is not written over by it.
+//! The module knows which file a name refers to, and which files were read, so that a command does not overwrite its input.
 //!
-//! Files that a killed run left half written: whoever writes a file beside the one it is to become holds its lock; where nobody does,
-//! whoever began it is gone.
+//! It also finds files that a killed run left half written: a process that writes a temporary file holds its lock, so an unlocked
+//! one was abandoned.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;

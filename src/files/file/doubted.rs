@@ -1,5 +1,5 @@
-//! What is doubted of a file: ratios and pitches that are written as decimals and are all but fractions, and directions of options that
-//! nobody stated, and that are taken from the joint's own, where they mean something else.
+//! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions, and directions of options
+//! that are not given and default to the joint's own, where they have another meaning.
 
 use crate::file::locate::{DocumentStep, index, key};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
@@ -47,7 +47,7 @@ pub(super) fn doubted(
 /// Joints named of a list.
 const SHOWN: usize = 8;
 
-/// What is guessed of an option at a joint: the direction, what it is taken along, and the key that would state it.
+/// A guessed direction of an option at a joint: the direction, what it is taken along, and the key that would set it.
 type Guess = (&'static str, &'static str, &'static str);
 
 /// Lists each option with guessed directions once, with the joints where it has them.

@@ -1,4 +1,4 @@
-//! Changes to the text of a mechanism file: all that is not changed stays as it is, comments and digits included.
+//! Changes to the text of a mechanism file. Everything else stays unchanged, including comments and digits.
 
 mod change;
 mod differences;

@@ -1,4 +1,4 @@
-//! What is doubtful in a file that can be used: likely slips, and what has no effect.
+//! Warnings about a file that can be used: likely mistakes, and entries without effect.
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::{doubted, guessed};

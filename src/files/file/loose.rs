@@ -1,4 +1,4 @@
-//! What can be told of a file that is not whole yet: where its items are, and the part of it that hangs on the frame.
+//! Information on an incomplete file: the places of its items, and the part of it that is connected to the frame.
 
 use crate::file::read::value::knowing;
 use crate::file::schema::{Coordinate, MechanismFile};

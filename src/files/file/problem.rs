@@ -1,4 +1,4 @@
-//! What can be wrong with a file, in words that name the item and the remedy.
+//! Problems of a file, in messages that name the item and the remedy.
 
 use crate::file::locate::{Document, DocumentStep};
 use crate::format::{did_you_mean, plural};
@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
 
-/// What is wrong.
+/// The problem.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 #[allow(
@@ -67,7 +67,7 @@ pub enum ProblemKind {
         kind: String,
         what: &'static str,
     },
-    #[error("joint \"{joint}\" of type {kind} must not have {what}; remove it")]
+    #[error("joint \"{joint}\" of type {kind} takes no {what}; remove it")]
     Superfluous {
         joint: String,
         kind: String,
@@ -225,10 +225,10 @@ fn lengths(least: usize, most: usize) -> String {
     }
 }
 
-/// A problem and where it stands.
+/// A problem and its place.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// What is wrong.
+    /// The problem.
     pub kind: ProblemKind,
     /// Bytes of the text it concerns, where known.
     pub span: Option<Range<usize>>,
@@ -239,7 +239,7 @@ pub struct Problem {
 pub struct ImportError {
     /// Name of the file.
     pub file: String,
-    /// Its text; empty where it could not be read as text.
+    /// Its text; empty if it could not be read as text.
     pub text: String,
     /// The problems, in order of the file where known.
     pub problems: Vec<Problem>,

@@ -1,4 +1,4 @@
-//! What rounded coordinates make doubtful in a file: what is meant, and which joints are all but special.
+//! Warnings about rounded coordinates: the idealised geometry, and joints that are nearly special.
 
 use crate::file::warning::{WarningKind, first_of};
 use crate::geom::expr::Expr;

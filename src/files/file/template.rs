@@ -1,7 +1,8 @@
 //! A commented mechanism file to start from, made of one that exists.
 //!
-//! The words are those of the schema, so they cannot differ from what `ozols schema` says. Nothing of the file is
-//! moved, and nothing taken away but the claims of publications, which are not of the new mechanism: comments are put before the first table and the first key of each kind.
+//! The comments are those of the schema, so they agree with `ozols schema`. Nothing of the file is moved. Only the claims of
+//! publications are removed, because they are not about the new mechanism. Comments come before the first table and the first key of
+//! each kind.
 
 use crate::file::schema::json_schema;
 use serde_json::Value;
@@ -12,7 +13,7 @@ use toml_edit::{Decor, DocumentMut, InlineTable, Item, Table, TomlError};
 /// Columns of a comment.
 const COLUMNS: usize = 100;
 
-/// What to edit, by the path of the key; the schema says what each key is.
+/// Advice on what to edit, by the path of the key; the schema describes each key.
 const ADVICE: [(&str, &str); 10] = [
     ("description", "Describe your mechanism."),
     ("sources", "Give your own sources, or delete this."),

@@ -1,5 +1,5 @@
-//! Reading a mechanism from text; and control characters, which have no business in names: a terminal would obey them, and a table would
-//! fall apart.
+//! Reading a mechanism from text. Control characters are not allowed in names, because they could control a terminal or break a
+//! table.
 
 use crate::file::lengths::wrong_lengths;
 use crate::file::locate::last_key;

@@ -1,4 +1,4 @@
-//! Warnings about a file that can be used, with the lines they stand on.
+//! Warnings about a file that can be used, with their lines.
 
 use crate::file::locate::{Document, DocumentStep};
 use crate::file::problem::render;
@@ -9,7 +9,7 @@ use std::fmt::Display;
 use std::ops::Range;
 use thiserror::Error;
 
-/// What is doubtful.
+/// The doubtful value.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 #[allow(
@@ -183,10 +183,10 @@ pub(crate) fn first_of(all: &[impl Display], most: usize) -> String {
     format!("{}{more}", all.iter().take(most).join(", "))
 }
 
-/// A warning and where it stands.
+/// A warning and its place.
 #[derive(Debug, Clone)]
 pub struct Warning {
-    /// What is doubtful.
+    /// The doubtful value.
     pub kind: WarningKind,
     /// Bytes of the text it concerns, where known.
     pub span: Option<Range<usize>>,

@@ -83,7 +83,7 @@ pub fn mechanism_file(m: &Mechanism) -> MechanismFile {
     }
 }
 
-/// What is said above a table of a file.
+/// A comment above a table of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Comment {
     /// The table's name, such as "joint".

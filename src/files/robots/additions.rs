@@ -1,5 +1,6 @@
-//! What elements beside links and joints add: plugins that weld links or couple joints, and elements that no reader knows. Those that
-//! could close a loop or couple joints are reported and counted; the others (friction, colours, publishers) bear no kinematics.
+//! Elements in addition to links and joints: plugins that weld links or couple joints, and unknown elements. Those that could
+//! close a loop or couple joints are reported and counted; the others (friction, colours, publishers) have no effect on the
+//! kinematics.
 
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;

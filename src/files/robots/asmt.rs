@@ -11,7 +11,7 @@ use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// What the first line of a file begins with: that of OndselSolver, whose files are in millimetres, and the old one.
+/// The beginnings of the first line of a file: that of OndselSolver, whose files are in millimetres, and the old one.
 const HEADS: [(&str, Unit); 2] = [
     ("OndselSolver", Unit::Millimetre),
     ("freeCAD: 3D CAD", Unit::Metre),

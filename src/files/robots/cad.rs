@@ -1,6 +1,6 @@
-//! Assemblies of CAD programs: parts placed by the file, and joints that say what of two frames must meet.
+//! Assemblies of CAD programs: parts placed by the file, and joints that constrain two frames.
 //!
-//! An assembly as read, and the robot that it is: parts where they stand, joints where their frames are.
+//! An assembly as read, and its robot: parts at their places, joints at their frames.
 
 pub(crate) mod archive;
 mod coupled;
@@ -22,14 +22,14 @@ use crate::robots::warning::{CadCount, Options};
 const MEET: f64 = 1e-4;
 /// Less than this is rounding of the last digits.
 const ROUNDED: f64 = 1e-9;
-/// What a search may put in place of a joint: what CAD programs have joints for.
+/// Joint types that a search may use instead of a joint: those of CAD programs.
 const OPTIONS: [JointType; 3] = [
     JointType::Revolute,
     JointType::Cylindrical,
     JointType::Spherical,
 ];
 
-/// What is said of limits, which no reader gives.
+/// The note on limits, which no reader supports.
 pub(crate) const NO_LIMITS: &str = "limits are omitted; poses beyond them are analysed, too";
 
 /// A joint as read.
@@ -41,7 +41,7 @@ pub(crate) struct Connection {
     /// I and J in the assembly.
     pub(crate) frames: [RigidMotion; 2],
     pub(crate) holds: Holds,
-    /// The element that says so.
+    /// The element that defines it.
     pub(crate) element: usize,
 }
 

@@ -1,6 +1,6 @@
-//! A robot as a description has it: links, joints, loops, couplings, and where they stand in the text.
+//! A robot as described by a file: links, joints, loops, couplings, and their places in the text.
 //!
-//! What the formats have in common: links, joints with a place on either side, named frames.
+//! The formats have in common: links, joints with a place on either side, named frames.
 
 pub(in crate::robots) mod coupling;
 pub(in crate::robots) mod digits;
@@ -46,9 +46,9 @@ pub(crate) struct Part {
     pub(in crate::robots) values: Vec<f64>,
     /// Limits of a joint of one freedom.
     pub(in crate::robots) limits: Option<(f64, f64)>,
-    /// What was approximated, for the file.
+    /// The approximation, as a comment for the file.
     pub(in crate::robots) comment: Option<String>,
-    /// The element that says so; none where a file beside the description does.
+    /// The element that defines it. `None` if a separate file does.
     pub(in crate::robots) element: Option<usize>,
     /// How far its two sides are apart in what it holds, where the file places both: a length in the robot's unit, and radians.
     pub(in crate::robots) misfit: Option<[f64; 2]>,
@@ -157,7 +157,7 @@ pub(crate) struct Ratio {
     pub(in crate::robots) ratio: f64,
     /// Coefficients of the second to fourth power of the leader's value, where the follower's is a polynomial of it.
     pub(in crate::robots) higher: [f64; 3],
-    /// The element that says so, in words.
+    /// The element that defines it, in words.
     pub(in crate::robots) element: String,
     /// That element.
     pub(in crate::robots) said_by: usize,
@@ -206,14 +206,14 @@ pub(crate) struct Robot {
     pub(in crate::robots) places: Vec<RigidMotion>,
     /// The unit of its lengths.
     pub(in crate::robots) unit: Unit,
-    /// How well places are known, in its unit and in radians, where that is known better than by the digits of its numbers.
+    /// The accuracy of places, in its unit and in radians, if it is better than the digits of its numbers.
     pub(in crate::robots) known_to: Option<[f64; 2]>,
     /// Whether a joint has freedoms that are right at this pose only.
     pub(in crate::robots) here_only: bool,
     /// Whether it is an assembly of a CAD program: joints have one of a few types, and fixed joints of a loop are joints like
     /// others; else what is fixed is one body.
     pub(in crate::robots) assembly: bool,
-    /// What a search may put in place of a joint.
+    /// Joint types that a search may use instead of a joint.
     pub(in crate::robots) options: &'static [JointType],
     /// The links that elements are.
     pub(in crate::robots) said: BTreeMap<usize, usize>,
@@ -244,7 +244,7 @@ impl Unit {
     }
 }
 
-/// What a search may put in place of a joint where a format has no list of its own.
+/// Joint types that a search may use instead of a joint, if a format has no list.
 const OPTIONS: [JointType; 4] = [
     JointType::Revolute,
     JointType::Cylindrical,

@@ -1,4 +1,4 @@
-//! Edits of a description by spans of its text: everything else stays as it is, byte for byte.
+//! Edits of a description by spans of its text. Everything else stays unchanged, byte for byte.
 
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;

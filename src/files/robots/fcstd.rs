@@ -1,4 +1,4 @@
-//! FreeCAD documents with assemblies, `.FCStd`: the parts of an assembly where they stand, and its joints.
+//! FreeCAD documents with assemblies, `.FCStd`: the parts of an assembly at their places, and its joints.
 
 mod brep;
 mod distance;
@@ -24,7 +24,7 @@ pub(crate) const DOCUMENT: &str = "Document.xml";
 
 /// Most documents that one may link to, with those that these link to.
 const MAX_LINKED: usize = 100;
-/// Rows of a joint of a type that is not known: as many as a joint can hold that lets anything move.
+/// Rows of a joint of an unknown type: the maximum that still allows a motion.
 const UNKNOWN_ROWS: usize = 5;
 
 /// Properties that say that a joint has limits.
@@ -178,7 +178,7 @@ fn chosen<'a>(
     Ok(most)
 }
 
-/// What is put together.
+/// The assembly being read.
 struct Assembling<'a, 'd> {
     documents: &'d Documents<'a>,
     assembly: Object<'a>,

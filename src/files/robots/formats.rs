@@ -16,7 +16,7 @@ pub struct Format {
     pub word: &'static str,
     /// The usual name.
     pub name: &'static str,
-    /// What is written in it.
+    /// The content of the format.
     pub about: &'static str,
     /// Endings of files that are robot descriptions of this format.
     endings: &'static [&'static str],
@@ -41,7 +41,7 @@ enum FormatWriter {
 pub struct FormattedFile {
     /// The text.
     pub text: String,
-    /// What the format has no words for, and what stands there in its place, a sentence each; comments of the text say it, too.
+    /// The omissions and placeholders of the format, a sentence each; comments of the text repeat them.
     pub told: Vec<String>,
 }
 

@@ -52,7 +52,7 @@ fn quoted(text: &str) -> String {
     format!("\"{inner}\"")
 }
 
-/// What is said of nodes and edges in GraphML: of which of them, its name, its type.
+/// The data of nodes and edges in GraphML: for nodes or edges, its name, its type.
 const KEYS: [(&str, &str, &str); 8] = [
     ("node", "role", "string"),
     ("edge", "type", "string"),

@@ -1,7 +1,7 @@
 //! Robot descriptions as mechanisms.
 //!
-//! A description is read into links and joints with a place on either side; loops come from the file or from a file
-//! beside it ([`Options::loops`]). The joints are composed into one pose, loops that are open there are closed by
+//! A description is read into links and joints with a place on either side; loops come from the file or from a
+//! separate file ([`Options::loops`]). The joints are composed into one pose, loops that are open there are closed by
 //! changing joint values as little as possible, rigidly joined links become one, and the result is a mechanism and the
 //! entries of its file, with a [`Report`] of what was mapped, approximated and dropped.
 
@@ -38,7 +38,7 @@ pub struct Imported {
     pub file: MechanismFile,
     /// The format read.
     pub format: &'static Format,
-    /// What was mapped, approximated and dropped.
+    /// Mapped, approximated and dropped elements.
     pub report: Report,
     comments: Vec<Comment>,
     /// Where in the description the mechanism's parts stand.

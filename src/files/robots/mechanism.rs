@@ -218,7 +218,7 @@ fn in_loops(robot: &Robot, tree: &Tree) -> BTreeSet<usize> {
 #[derive(Debug)]
 pub(crate) struct Entries {
     pub(in crate::robots) file: MechanismFile,
-    /// What is to be said above its entries.
+    /// The comments above its entries.
     pub(in crate::robots) comments: Vec<Comment>,
     /// Places of the links in the pose found.
     pub(in crate::robots) places: Vec<RigidMotion>,

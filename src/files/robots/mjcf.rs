@@ -1,4 +1,4 @@
-//! MJCF, read, mended and written: bodies with joints in series, sites, equality constraints, default classes and includes.
+//! Reading, fixing and writing MJCF: bodies with joints in series, sites, equality constraints, default classes and includes.
 
 mod context;
 mod defaults;
@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 const SECTIONS: &str = "asset contact custom extension keyframe option sensor size statistic \
     tendon visual";
 
-/// What a joint says of how it resists motion, which is no kinematics.
+/// Attributes of a joint's resistance to motion, which do not affect the kinematics.
 const RESISTANCE: &str = "damping stiffness springdamper armature frictionloss";
 
 /// Something still to be read: a body or frame, the link that holds it, the place there, and the class of its children.

@@ -1,4 +1,4 @@
-//! What can be wrong with a robot description, in words that name the element and the remedy.
+//! Problems of a robot description, in messages that name the element and the remedy.
 
 use crate::file::problem::{ImportError, ProblemKind};
 use itertools::Itertools;
@@ -80,7 +80,7 @@ pub enum ExportError {
         kind: String,
         /// The format.
         format: &'static str,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// The format is written only of files that were read in it.

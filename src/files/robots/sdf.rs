@@ -1,5 +1,5 @@
-//! SDF, read, mended and written: models with links, frames and joints, places relative to each other, loops closed by joints as they
-//! stand.
+//! Reading, fixing and writing SDF: models with links, frames and joints, places relative to each other, loops closed by joints
+//! as drawn.
 
 pub(super) mod fix;
 mod gearbox;
@@ -64,7 +64,7 @@ pub(crate) fn read(
     Ok(robot)
 }
 
-/// What is read of worlds.
+/// The elements of worlds that are read.
 const IN_WORLDS: [&str; 4] = ["model", "joint", "frame", "plugin"];
 
 /// Returns joints and frames in worlds, next to their models; plugins there are stored in the scene.

@@ -1,4 +1,4 @@
-//! URDF, read, mended and written: a tree of links and joints, with mimic joints, transmissions and the loop extensions in use.
+//! Reading, fixing and writing URDF: a tree of links and joints, with mimic joints, transmissions and the usual loop extensions.
 
 pub(super) mod fix;
 mod gazebo;
@@ -14,7 +14,7 @@ use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 
-/// What is read of a joint.
+/// The elements of a joint that are read.
 const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];
 const TYPES: &str = "revolute, continuous, prismatic, fixed, planar, floating";
 

@@ -1,4 +1,4 @@
-//! What is asked of an import, and what it mapped, approximated and dropped.
+//! Options of an import, and its mapped, approximated and dropped elements.
 
 use crate::file::warning::first_of;
 use crate::format::plural;
@@ -6,7 +6,7 @@ use itertools::Itertools;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What to do with a description.
+/// Options for reading a description.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
     /// Name and bytes of a file of loop closures.
@@ -18,7 +18,7 @@ pub struct Options {
     /// SDF drawn in parts: every joint puts the frame that is its parent onto its child. CAD assemblies: each part keeps its own
     /// frame of a joint, and joints that are open are closed.
     pub assemble: bool,
-    /// Take loops that do not close as they are.
+    /// Accept loops that do not close.
     pub open: bool,
     /// Folders that `model://` stands for, searched in order; files that are included with `../` may be within them, too.
     pub models: Vec<std::path::PathBuf>,
@@ -35,7 +35,7 @@ pub type Reader<'a> = &'a dyn Fn(&str) -> std::io::Result<Vec<u8>>;
 
 /// Names shown of each kind of dropped element.
 const SHOWN: usize = 4;
-/// Kinds told in a sentence.
+/// Maximum number of kinds in a sentence.
 const KINDS: usize = 12;
 
 /// Something that the mechanism file cannot say exactly.
@@ -43,7 +43,7 @@ const KINDS: usize = 12;
 pub struct Note {
     /// The element.
     pub element: String,
-    /// What was done with it.
+    /// Its treatment.
     pub what: String,
 }
 
@@ -56,7 +56,7 @@ pub struct Kept {
     pub mobility: Option<(usize, usize)>,
 }
 
-/// What a CAD program counts.
+/// The count of a CAD program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CadCount {
     /// Parts that are not the ground.
@@ -81,18 +81,18 @@ pub struct Report {
     pub mapped: BTreeMap<String, usize>,
     /// Elements mapped approximately.
     pub approximated: Vec<Note>,
-    /// Those of these that are guesses or left out: what they mean may hold or couple something, so that figures are those of the file
-    /// as read.
+    /// Approximations that are guesses or omissions. They may constrain or couple something, so figures are those
+    /// of the file as read.
     pub assumed: Vec<String>,
     /// Elements that bear no kinematics, by kind: how many, and some names.
     pub dropped: BTreeMap<String, (usize, Vec<String>)>,
     /// Couplings of joint values (mimic joints, equalities) that are kept.
     pub kept: Option<Kept>,
-    /// Rows of constraints between joint values that are left out.
+    /// Rows of omitted constraints between joint values.
     pub coupling_rows: usize,
-    /// Rows of constraints of joints that are left out.
+    /// Rows of omitted constraints of joints.
     pub constraint_rows: usize,
-    /// What a CAD program would count, of an assembly.
+    /// The count of a CAD program, for an assembly.
     pub count: Option<CadCount>,
     /// How the pose was found and how well the loops close.
     pub pose: Vec<String>,

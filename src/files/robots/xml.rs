@@ -40,11 +40,11 @@ pub(crate) struct Node {
     text: String,
     pub(super) children: Vec<usize>,
     pub(super) source: usize,
-    /// Of the tag it begins with.
+    /// The span of its start tag.
     pub(super) span: Range<usize>,
-    /// Of the tag it ends with; nothing, behind it, where it is one tag.
+    /// The span of its end tag; empty, after the start tag, if there is only one tag.
     pub(super) close: Range<usize>,
-    /// Whether it is a copy of what stands there.
+    /// True if it is a copy of the element there.
     pub(super) copy: bool,
 }
 

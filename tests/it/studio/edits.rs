@@ -156,7 +156,7 @@ fn what_cannot_be_done_changes_nothing_and_says_why() {
         edited("a = [", &[entry("9")])
             .unwrap_err()
             .to_string()
-            .contains("no TOML")
+            .contains("not valid TOML")
     );
     assert!(
         edited("link = [{ id = \"0\" }]", &[entry("9")])

@@ -1,4 +1,4 @@
-//! What can be changed in a file, and why it cannot.
+//! Possible changes of a file, and the reasons why a change fails.
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -75,7 +75,7 @@ pub enum Edit {
         what: Thing,
         /// Which.
         id: String,
-        /// What it is called from now on.
+        /// Its new name.
         to: String,
     },
     /// Items go, with what names them: joints of a link, pairs, couplings and contours of a joint.

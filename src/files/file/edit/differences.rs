@@ -1,4 +1,4 @@
-//! What makes one mechanism of another, as changes to the file of the first: a redesign with all comments kept.
+//! The differences between two mechanisms, as changes to the file of the first: a redesign that keeps all comments.
 
 use super::change::{Edit, Thing};
 use crate::file::schema::{JointEntry, MechanismFile};

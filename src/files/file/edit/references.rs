@@ -1,4 +1,4 @@
-//! Where a file names its links and joints besides the items themselves.
+//! References to links and joints in a file, outside the items themselves.
 
 use super::change::Thing;
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
@@ -25,7 +25,7 @@ const TABLES: [(&[&str], &str, Thing); 5] = [
     (&["workload", "misalignment"], "joint", Thing::Joint),
 ];
 
-/// Lists in which one name that goes takes its neighbours along: a pair is no pair without it.
+/// Lists in which a removed name removes its neighbours: a pair needs both.
 const TOGETHER: [(&[&str], &str, Thing); 2] = [
     (&["contour"], "joints", Thing::Joint),
     (&["coupling"], "joints", Thing::Joint),

@@ -1,4 +1,4 @@
-//! What the search may change, what a joint may become, and what it costs.
+//! The changes that a search may make: the options of each joint, and their costs.
 
 pub(crate) mod ranking;
 
@@ -85,8 +85,8 @@ fn allowed(
     .then_some(option)
 }
 
-/// Off by more than this, as an angle and as a fraction of the mechanism's size, joints are no mirror images, however their
-/// coordinates were rounded.
+/// Joints that are off by more than this, as an angle and as a fraction of the mechanism's size, are not mirror images,
+/// regardless of the rounding of their coordinates.
 const NO_IMAGE: f64 = 1e-3;
 
 /// Reports pairs that are not mirror images.

@@ -26,7 +26,7 @@ use crate::model::mechanism::{LengthUnit, Mechanism};
 pub struct WorkloadFile<T> {
     /// Short name.
     pub name: String,
-    /// Where the figures come from.
+    /// The sources of the figures.
     pub sources: Vec<String>,
     /// Unit of the file's lengths, for labels.
     pub length_unit: LengthUnit,
@@ -34,7 +34,7 @@ pub struct WorkloadFile<T> {
     pub claims: Vec<Claim>,
     /// The mechanism, where the file has links or joints.
     pub mechanism: Option<Mechanism>,
-    /// What the table says, in SI units.
+    /// The content of the table, in SI units.
     pub spec: T,
 }
 

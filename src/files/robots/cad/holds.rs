@@ -1,6 +1,6 @@
-//! What a joint of an assembly holds of its two frames, I and J.
+//! Constraints of a joint of an assembly on its two frames, I and J.
 
-/// What must meet. Lengths are in the assembly's unit; d is the way from I's origin to J's.
+/// A constraint. Lengths are in the assembly's unit; d is the vector from I's origin to J's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Holds {
     /// All.

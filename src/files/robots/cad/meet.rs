@@ -8,7 +8,7 @@ use crate::robots::cad::holds::Holds;
 /// Sines and ways below this have no direction.
 const FLAT: f64 = 1e-6;
 
-/// A joint where it stands, in the world.
+/// A joint at its place in the world.
 #[derive(Debug, Clone)]
 pub(crate) struct Meeting {
     pub(super) kind: JointType,

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// Sines below this are none.
 const SAME: f64 = 1e-4;
 
-/// The types that a joint can be changed to where it stands, without another element or figure.
+/// The types that a joint can be changed to in its place, without another element or figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Simple {
     Fixed,

@@ -1,5 +1,5 @@
-//! Couplings of joints: mimic joints and equalities of joint values, as far as they are linear. Written as mimic joints each joint follows
-//! one other at most, so that a tree of couplings can be said, and no more.
+//! Couplings of joints: mimic joints and equalities of joint values, if they are linear. A mimic joint follows at most one other,
+//! so mimic joints can only represent a tree of couplings.
 
 use crate::closure::Closure;
 use crate::closure::tree::forest;
@@ -10,7 +10,7 @@ use crate::rank::rounded::verdict::verdict;
 use crate::robots::description::Robot;
 use crate::robots::warning::Kept;
 
-/// Work of singular values, rows · columns · the lesser of them, up to which the figures are told.
+/// Maximum work of singular values, rows · columns · the lesser of them, for which the figures are reported.
 pub(crate) const LARGEST: usize = 2_000_000_000;
 
 /// A coupling that a mechanism file can say.
@@ -20,7 +20,7 @@ pub(crate) struct Usable {
     pub(in crate::robots) ends: [usize; 2],
     /// The rate of the follower over the leader's.
     pub(in crate::robots) ratio: f64,
-    /// The element that says so.
+    /// The element that defines it.
     pub(in crate::robots) said_by: usize,
     /// Whether it says that gears make it.
     pub(in crate::robots) gear: bool,
@@ -104,7 +104,7 @@ pub(crate) fn kept(m: &Mechanism) -> Option<Kept> {
     })
 }
 
-/// What a joint follows.
+/// The joint that a joint follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Follows {
     /// The joint that leads.

@@ -8,9 +8,9 @@ use crate::robots::xml::element::Element;
 /// Elements that place no joint, with all that is in them.
 const OTHERS: &str = "visual collision inertial inertia geom asset camera light sensor plugin \
     gazebo transmission actuator contact keyframe limit limits dynamics material mimic";
-/// What is calculated in doubles is known no better, as a part of the size of the robot.
+/// Minimum uncertainty of values calculated in doubles, as a fraction of the size of the robot.
 const LEAST: f64 = 1e-12;
-/// Nor is a place said to be known worse than to this part of the size of the mechanism, and a direction to so many radians.
+/// Maximum uncertainty of a place, as a fraction of the size of the mechanism, and of a direction, in radians.
 const MOST: f64 = 0.09;
 
 /// Begins the comment by which a file that `ozols convert` of 0.2 wrote says how well its places are known: its numbers have all

@@ -91,7 +91,7 @@ pub(crate) fn places(robot: &Robot, tree: &Tree) -> Vec<RigidMotion> {
 pub(crate) struct WorldAxis {
     pub(in crate::robots) freedom: Freedom,
     pub(in crate::robots) point: Vector,
-    /// Of the length it has in the file.
+    /// The direction, with its length in the file.
     pub(in crate::robots) direction: Vector,
 }
 

@@ -1,4 +1,4 @@
-//! Loop closures from a file beside the description: YAML, JSON or TOML, in three shapes.
+//! Loop closures from a separate file: YAML, JSON or TOML, in three shapes.
 //!
 //! - ozols' own: a list `loop` of tables with `a` and `b` (names of links, frames or joints), `type` (spherical by
 //!   default), and `point_a`, `point_b`, `axis_a`, `axis_b` in those frames;

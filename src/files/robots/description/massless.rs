@@ -1,5 +1,5 @@
-//! Links that stand between joints in series: engines refuse what moves without mass, so that these weigh something, and next
-//! to nothing beside what is there.
+//! Links between joints in series. Engines reject massless moving bodies, so these links get a mass that is negligible compared
+//! with the others.
 
 use crate::geom::vector::Vector;
 use crate::model::loads::Inertia;
@@ -11,10 +11,10 @@ use crate::robots::xml::Document;
 const MOST: [f64; 2] = [1e-4, 1e-7];
 /// The least: sdformat takes a mass of 1e-6 for none and drops the link, MuJoCo takes 1e-15 for nothing.
 const LEAST: [f64; 2] = [1e-5, 1e-12];
-/// What is less than this share of the heaviest is a stand-in of the owner's, too.
+/// A mass below this fraction of the heaviest is treated as a stand-in of the owner's.
 const STAND_IN: f64 = 1e-4;
 
-/// What a link in between weighs: in kg, and in kg·m² about every axis, as a ball, so that no engine finds fault with it.
+/// The weight of an inserted link, in kg, and in kg·m² about every axis, like a ball, which every engine accepts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Light {
     mass: f64,

@@ -1,4 +1,4 @@
-//! What robot formats say of links besides joints, and what they have no words for.
+//! Physical data of links in robot formats, and omissions of these formats.
 
 use crate::geom::vector::{Vector, real, sub};
 use crate::model::loads::Inertia;
@@ -6,7 +6,7 @@ use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
 use crate::robots::mechanism::series_of_single_joints::comment;
 use itertools::Itertools;
 
-/// What a link weighs: kg, m, kg·m².
+/// The inertial data of a link: kg, m, kg·m².
 pub(crate) struct Inertial {
     pub(in crate::robots) mass: f64,
     /// From the origin asked for.
@@ -33,7 +33,7 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
     })
 }
 
-/// What is told where links have no mass of their own in the mechanism.
+/// The note on links without a mass in the mechanism.
 pub(crate) const GRAM: &str =
     "links without a mass get 1 g, because engines reject massless moving bodies";
 

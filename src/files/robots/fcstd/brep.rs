@@ -1,6 +1,6 @@
 //! The kinds of surfaces and curves in a shape written as text, by the names that faces and edges have in FreeCAD.
 
-/// What an element of a shape is. Lengths in mm.
+/// The kind of an element of a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ShapeKind {
     Vertex,

@@ -1,4 +1,4 @@
-//! What a distance joint holds, by the kinds of the two elements it stands between.
+//! The constraint of a distance joint, by the kinds of its two elements.
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{add_scaled, cross, dot, length, sub};

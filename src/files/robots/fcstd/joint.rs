@@ -9,10 +9,10 @@ use crate::robots::fcstd::objects::Object;
 use crate::robots::fcstd::reference::Reference;
 use crate::robots::problem::Read;
 
-/// Reads the text of a member of the archive; none where it is not there or no text.
+/// A reader of the text of a member of the archive. It returns `None` if the member is missing or not text.
 pub(crate) type Shapes<'a> = &'a dyn Fn(&str) -> Option<String>;
 
-/// What a joint holds, its frames in the assembly and whether its two parts change places; or why it cannot be said.
+/// The constraint of a joint, its frames in the assembly, and whether its two parts are swapped; or why it cannot be represented.
 #[derive(Debug)]
 pub(crate) struct Held {
     pub(crate) holds: Holds,

@@ -1,4 +1,4 @@
-//! What a joint refers to: the part that moves, the frame's place in it, and the element of its shape.
+//! The reference of a joint: the part that moves, the frame's place in it, and the element of its shape.
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::fcstd::objects::{Object, Objects};
@@ -22,10 +22,10 @@ impl<'a> Documents<'a> {
     }
 }
 
-/// Where a joint holds on to a part.
+/// The reference of a joint to a part.
 #[derive(Debug, Clone)]
 pub(crate) struct Reference<'a> {
-    /// The name of the part below the assembly, or none where it is what stands still.
+    /// The name of the part below the assembly. `None` if it is the ground.
     pub(crate) part: Option<&'a str>,
     /// The place of the part in the assembly.
     pub(crate) place: RigidMotion,
@@ -35,7 +35,7 @@ pub(crate) struct Reference<'a> {
     pub(crate) doubt: Option<String>,
     /// Member of the archive with the shape that the element is of.
     pub(crate) shape: Option<&'a str>,
-    /// The kind of object where it is no shape.
+    /// The kind of object, if it is not a shape.
     pub(crate) object: &'a str,
     /// The element: `Face3`, `Edge1`, `Vertex7`, or nothing.
     pub(crate) element: &'a str,
@@ -234,7 +234,7 @@ fn unknown(name: &str, file: &str) -> String {
 #[derive(Clone, Copy)]
 struct ObjectInFile<'a> {
     object: Object<'a>,
-    /// Nothing where it is the one with the assembly.
+    /// The file; empty if it is the one with the assembly.
     file: &'a str,
 }
 

@@ -20,7 +20,7 @@ const LONGEST: usize = 64;
 /// The links after merging those that are rigidly joined.
 #[derive(Debug)]
 pub(crate) struct Bodies {
-    /// For each link of the robot the link that stands for it.
+    /// For each link of the robot the link that represents it.
     pub(in crate::robots) of: Vec<usize>,
 }
 
@@ -61,7 +61,7 @@ impl Names {
     }
 }
 
-/// What goes into the file.
+/// The content of the file.
 #[derive(Debug)]
 pub(crate) struct Content<'a> {
     pub(in crate::robots) robot: &'a Robot,

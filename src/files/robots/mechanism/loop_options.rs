@@ -1,4 +1,4 @@
-//! What a search may do at the joints that close loops: let them go in the directions that are held twice.
+//! Options of the joints that close loops: freedoms in the directions of redundant constraints.
 
 use crate::file::schema::{Coordinate, JointEntry, MechanismFile, OptionEntry, OptionTable};
 use crate::geom::vector::{Vector, cross, dot};

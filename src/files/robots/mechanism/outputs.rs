@@ -1,4 +1,4 @@
-//! Which links are outputs where nobody says so: those that a user of the robot means.
+//! The default outputs: the links that a user of the robot usually means.
 
 use crate::closure::tree::forest;
 use crate::file::problem::ProblemKind;

@@ -14,7 +14,7 @@ pub(crate) struct JointAxes {
     pub(in crate::robots) pitch: f64,
 }
 
-/// What a single freedom does, about or along its axis.
+/// A single freedom, about or along its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Single {
     Turn(Vector),

@@ -1,4 +1,4 @@
-//! What the sections of an MJCF file share: settings, default classes and sites.
+//! Settings, default classes and sites that the sections of an MJCF file share.
 
 use crate::geom::rigid::{RigidMotion, towards};
 use crate::geom::vector::{X, Y, Z, cross, dot, length, scale, sub};
@@ -15,7 +15,7 @@ pub(super) struct Compiler {
     eulerseq: String,
 }
 
-/// What the sections of a file share.
+/// The data that the sections of a file share.
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) compiler: Compiler,

@@ -15,7 +15,7 @@ use crate::robots::problem::Read;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Armature where nothing is known of what links weigh, in kg and kg·m²: too much does no harm, too little does.
+/// Armature if the weights of links are unknown, in kg and kg·m²: too much is harmless, too little is not.
 const HEAVY: f64 = 10.0;
 /// Armature over what links weigh. At 1 joints of a ladder of four loops are 1.4e-3 rad from those of the model as it was after half a
 /// second, at 10 they are 4e-4.
@@ -62,7 +62,7 @@ pub(crate) fn uncouple(
     Ok(())
 }
 
-/// Where new joints stand among those of a keyframe.
+/// The position of new joints among those of a keyframe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum KeyframeMark {
     /// Behind a joint.
@@ -77,7 +77,7 @@ struct MjcfFile<'a> {
     origin: &'a Origin,
     defaults: Defaults<'a>,
     parents: Vec<Option<usize>>,
-    /// What the links weigh, in their frames.
+    /// The weights of the links, in their frames.
     weights: BTreeMap<usize, Weight>,
     /// Joints put in.
     inserted: Vec<(KeyframeMark, usize)>,

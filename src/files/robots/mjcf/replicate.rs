@@ -1,4 +1,4 @@
-//! `<replicate>`: what it holds, again and again, each time moved on and with a number behind its names.
+//! `<replicate>`: its content, repeated, each time moved and with a number after its names.
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::mjcf::context::{Compiler, compiler};

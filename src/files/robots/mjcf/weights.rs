@@ -1,4 +1,4 @@
-//! What the bodies of an MJCF file weigh: by their `<inertial>`, else by their shapes.
+//! The weights of the bodies of an MJCF file: from their `<inertial>`, otherwise from their shapes.
 
 mod shape;
 mod weight;

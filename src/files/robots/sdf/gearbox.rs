@@ -1,4 +1,4 @@
-//! `<joint type="gearbox">`: no joint of its own, but a ratio of the turns of two hinges on one body.
+//! `<joint type="gearbox">`: not a separate joint, but a ratio of the rotations of two hinges on one body.
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{cross, dot, length};

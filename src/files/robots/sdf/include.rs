@@ -9,14 +9,14 @@ use crate::robots::xml::{self, Document};
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);
 
-/// What files include that is no mechanism, and that few have at hand: Gazebo's own light and floor.
+/// Included files that are not mechanisms, and that few users have: Gazebo's own light and floor.
 const SCENERY: [&str; 2] = ["model://sun", "model://ground_plane"];
 
 /// What became of the includes.
 pub(super) struct Expanded {
-    /// Of each file, whether it is older than SDF 1.5.
+    /// For each file, true if it is older than SDF 1.5.
     pub(super) old: Vec<bool>,
-    /// Includes that are left out, as nothing in them moves.
+    /// Includes that are omitted, because nothing in them moves.
     pub(super) scenery: Vec<String>,
 }
 

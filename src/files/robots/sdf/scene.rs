@@ -1,4 +1,4 @@
-//! What has a place in an SDF file, and where that is.
+//! Elements with a place in an SDF file, and their places.
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
@@ -13,7 +13,7 @@ pub(crate) struct Placed<'a> {
     pub(super) relative_to: String,
     /// Place in that.
     pub(super) raw: RigidMotion,
-    /// What it moves with: itself for links, another name for frames, the child for joints.
+    /// The element it moves with: itself for links, another name for frames, the child for joints.
     pub(super) attached_to: String,
     /// Its place in the world, once known.
     pub(super) world: Option<RigidMotion>,
@@ -58,7 +58,7 @@ pub(crate) struct SdfScene<'a> {
     pub(crate) world: usize,
 }
 
-/// Ends the name of the frame of a joint that is called as a link beside it is.
+/// Suffix of the name of a joint's frame, if a link has the same name.
 pub(crate) const BESIDE: &str = "~joint";
 
 /// Returns the place of a joint, once known.

@@ -1,4 +1,4 @@
-//! SDF: every joint of the free state as it stands, loops closed by joints.
+//! SDF: every joint of the free state as drawn, loops closed by joints.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
@@ -11,7 +11,7 @@ use crate::robots::mechanism::series_of_single_joints::{
 };
 use std::fmt::Write;
 
-/// What a file collects.
+/// The content of a file.
 struct SdfWriter<'a> {
     m: &'a Mechanism,
     names: Names,
@@ -19,7 +19,7 @@ struct SdfWriter<'a> {
     links: Vec<Option<String>>,
     ids: Vec<String>,
     follows: Vec<Option<Follows>>,
-    /// A link without a mass of its own.
+    /// A link without its own mass.
     light: String,
     head: String,
     body: String,

@@ -57,7 +57,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
     Ok(())
 }
 
-/// URDF wants limits of what slides.
+/// Limits of sliding joints, which URDF requires.
 const LIMIT: &str = "<limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>";
 
 /// Returns the placement that an element gives, as the origin of a joint.

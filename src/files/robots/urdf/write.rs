@@ -14,10 +14,10 @@ use crate::robots::mechanism::series_of_single_joints::{
 use crate::robots::problem::ExportError;
 use std::fmt::Write;
 
-/// What a file collects.
+/// The content of a file.
 struct UrdfWriter<'a> {
     m: &'a Mechanism,
-    /// A link without a mass of its own.
+    /// A link without its own mass.
     light: String,
     links: Names,
     joints: Names,
@@ -215,7 +215,7 @@ impl UrdfWriter<'_> {
     }
 }
 
-/// URDF wants limits of what slides; the mechanism has none.
+/// Limits of sliding joints, which URDF requires; the mechanism has none.
 const LIMIT: &str = "    <limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>\n";
 
 type Kind = (&'static str, Option<[f64; 3]>);

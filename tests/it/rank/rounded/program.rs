@@ -73,7 +73,7 @@ fn every_command_takes_the_mechanism_as_meant() {
     has_all(
         &stderr,
         &[
-            "W = 1, σ = 3 is meant",
+            "the idealised geometry gives W = 1, σ = 3",
             "W = 0, σ = 2",
             "degrees",
             "from parallel",

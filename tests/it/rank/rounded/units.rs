@@ -118,7 +118,7 @@ fn what_was_understood_is_counted_in_groups_and_units() {
     let said = understood(&s);
     assert!(said.starts_with("3 axes parallel;"), "{said}");
     assert!(
-        said.ends_with("by more than 0.42 units of its last digit"),
+        said.ends_with("by at most 0.42 units of its last digit"),
         "{said}"
     );
     s.scene.cluster = vec![0, 1, 0, 1, 0];

@@ -103,7 +103,7 @@ fn export_writes_the_owners_document() {
     assert_eq!(figures(&read("x", &new_bytes, &Options::default())), (1, 0));
     for (file, to, said) in [
         ("gripper-10", "fcstd", "is not a file"),
-        (old.as_str(), "asmt", "is none"),
+        (old.as_str(), "asmt", "is not one"),
     ] {
         let (code, _, told) = ran(&["export", file, "--to", to]);
         assert_eq!(code, Some(2));

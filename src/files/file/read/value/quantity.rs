@@ -4,7 +4,7 @@ use crate::file::Place;
 use crate::file::schema::Coordinate;
 use std::f64::consts::PI;
 
-/// What a value may be.
+/// The allowed range of a value.
 #[derive(Clone, Copy)]
 pub(crate) enum Bound {
     /// Above zero.

@@ -9,7 +9,7 @@ use crate::model::mechanism::{Frame, Joint, Mechanism};
 
 /// Directions that are off by more, in radians, say nothing.
 const MOST_TURN: f64 = 0.1;
-/// Nor do places that are off by more of the size of the mechanism.
+/// Maximum uncertainty of places, as a fraction of the size of the mechanism.
 const MOST_SHIFT: f64 = 0.1;
 
 /// Puts what is stated in place of what digits say.

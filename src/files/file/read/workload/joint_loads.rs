@@ -1,4 +1,4 @@
-//! What `[workload]` says of moments, of the stiffness of joints, and of joints made askew.
+//! Moments, stiffness of joints, and misaligned joints in `[workload]`.
 
 use crate::file::Place;
 use crate::file::read::value::quantity::Bound;

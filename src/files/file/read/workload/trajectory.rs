@@ -15,7 +15,7 @@ const COLUMNS: [&str; 8] = ["ax", "ay", "az", "gx", "gy", "gz", "time", "diamete
 #[error("{0}")]
 pub struct TrajectoryError(String);
 
-/// Where the figures of a step stand.
+/// The columns of the figures of a step.
 struct StepColumns {
     acceleration: [usize; 3],
     gravity: Option<[usize; 3]>,

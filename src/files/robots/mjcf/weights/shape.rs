@@ -8,7 +8,7 @@ use crate::robots::mjcf::weights::weight::{Settings, Weight};
 use crate::robots::problem::Read;
 use std::f64::consts::PI;
 
-/// kg/m³ where nothing is said.
+/// Default density in kg/m³.
 const WATER: f64 = 1000.0;
 
 /// Returns the numbers of `size`; 0 where there are fewer than three.
@@ -26,7 +26,7 @@ fn sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
     Ok(out)
 }
 
-/// How large a shape is and where it stands.
+/// The size of a shape and its place.
 struct Measures {
     /// The numbers of `size`; 0 where there are fewer.
     sizes: [f64; 3],

@@ -1,4 +1,4 @@
-//! What the bar swings: discs, given by figures or by a link, and a payload.
+//! The inertias on the bar: discs, given by figures or by a link, and a payload.
 
 use crate::file::Place;
 use crate::file::problem::ProblemKind;
