@@ -95,6 +95,7 @@ impl Search {
                 SearchMethod::Brute => Method::Brute,
             },
             counted: !self.no_count,
+            only_sums: self.format != SearchFormat::Json,
             ..self.checked.request(seed)?
         })
     }

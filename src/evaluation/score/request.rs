@@ -152,6 +152,9 @@ pub struct Request {
     pub as_written: bool,
     /// Whether variants are counted, or no more of the diagram is built than the best need.
     pub counted: bool,
+    /// Whether variants are counted by W and by changes, but not by both: where nobody reads such a table.
+    #[serde(skip)]
+    pub only_sums: bool,
     /// Node budget of each diagram.
     pub nodes: usize,
     /// Bytes that the search, its counts, its lists and its ranking may hold, so far as they grow with what is found.
@@ -199,6 +202,7 @@ impl Default for Request {
             costs: None,
             symmetry: Symmetry::All,
             counted: true,
+            only_sums: false,
             as_written: false,
             nodes: Conditions::default().nodes,
             memory: Conditions::default().memory,

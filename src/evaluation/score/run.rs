@@ -120,7 +120,7 @@ pub fn answer(
     let (diagrams, check) = built(&search, twin.as_ref(), request, should_cancel, tell)?;
     tell(Event::Built);
     let mut stops = [diagrams.determinate.stop, diagrams.admissible.stop];
-    let mut counts = counted(&search, &diagrams);
+    let mut counts = counted(&search, &diagrams, request);
     if counts.determinate.only_total || counts.admissible.only_total {
         tell(Event::Note(ONLY_TOTALS.to_owned()));
     }
@@ -233,8 +233,12 @@ fn built(
 }
 
 /// How many variants are determinate, and how many admissible.
-fn counted(search: &Search, diagrams: &Diagrams) -> SearchCounts {
-    let mut counts = SearchCounts::of(search, diagrams);
+fn counted(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCounts {
+    let mut counts = if request.only_sums && request.symmetry != Symmetry::OnePerOrbit {
+        SearchCounts::sums_of(search, diagrams)
+    } else {
+        SearchCounts::of(search, diagrams)
+    };
     // What is cut down elsewhere may have none of the cheapest.
     if let Some(best) = &diagrams.cheapest {
         let known = search.counts(&best.diagram, true);

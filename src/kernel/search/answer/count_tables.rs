@@ -55,17 +55,51 @@ impl<C: Count> Tally<C> {
 /// Counts of whole variants by key, with no more than two layers' tables held at a time; `None` where even these would take
 /// more than some bytes.
 ///
+/// Where a layer has one node, what comes before it and what follows are chosen independently. Each part is counted by itself, and the
+/// counts are multiplied: tables within a part have no more keys than the part.
+///
 /// # Complexity
-/// As [`Tally::new`].
+/// That of [`Tally::new`] for each part, and for each a product with the table of those after it.
 #[must_use]
 pub(crate) fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -> Option<Table<C>> {
+    let mut whole: Table<C> = vec![(Key::default(), C::one())];
     let (mut tables, mut numbers) = terminals(diagram, steps);
     let mut held = 0;
-    for l in (0..diagram.layers.len()).rev() {
-        let left = bytes.saturating_sub(held);
-        (tables, numbers, held) = layer(diagram, steps, l, None, &tables, &numbers, left)?;
+    for l in (0..=diagram.layers.len()).rev() {
+        if l < diagram.layers.len() {
+            let left = bytes.saturating_sub(held);
+            (tables, numbers, held) = layer(diagram, steps, l, None, &tables, &numbers, left)?;
+        }
+        if let [part] = &mut tables[..] {
+            whole = product(&whole, part, bytes)?;
+            *part = vec![(Key::default(), C::one())];
+            numbers = Numbers {
+                keys: vec![Key::default()],
+                places: vec![vec![0]],
+            };
+        }
     }
-    Some(tables.into_iter().next().unwrap_or_default())
+    Some(if tables.is_empty() { Vec::new() } else { whole })
+}
+
+/// The counts of what is put together of one of each of two tables, by the sums of keys; `None` where they would take more than some
+/// bytes.
+///
+/// # Complexity
+/// O(entries of one · entries of the other).
+fn product<C: Count>(many: &Table<C>, few: &Table<C>, bytes: usize) -> Option<Table<C>> {
+    let [keys, by] = [many, few].map(|table| table.iter().map(|(k, _)| *k).collect::<Vec<Key>>());
+    let shifts = Shifts::new(&keys, &by, u64::MAX, bytes)?;
+    if shifts.keys.len() > bytes / size_of::<(Key, C)>() {
+        return None;
+    }
+    let mut sums = vec![C::none(); shifts.keys.len()];
+    for (shift, (_, times)) in shifts.of_choice.iter().zip(few) {
+        for (&to, (_, count)) in shifts.to[*shift].iter().zip(many) {
+            sums[to as usize].add_product(count, times);
+        }
+    }
+    Some(shifts.keys.into_iter().zip(sums).collect())
 }
 
 /// The keys of a layer's tables, numbered.
@@ -240,7 +274,7 @@ fn layer<C: Count>(
 
 #[cfg(test)]
 mod tests {
-    use super::{layer, terminals};
+    use super::{Tally, layer, terminals, totals};
     use crate::search::answer::keys::{Key, Steps};
     use crate::search::diagram::redundancy_so_far::Redundancy;
     use crate::search::diagram::{DEAD, Diagram, Layer};
@@ -272,5 +306,33 @@ mod tests {
         }
         let counts: Vec<u128> = tables[0].iter().map(|(_, n)| *n).collect();
         assert_eq!(counts, [1, variables as u128]);
+    }
+
+    /// Three parts in a row, of two layers each, between which there is one node: their counts multiplied are those of the whole.
+    #[test]
+    fn parts_are_counted_as_the_whole_is() {
+        let keys: Vec<Key> = (0..3).map(|k| Key::new(0, 2 * k, k)).collect();
+        let variables = 6;
+        let of = |variable: usize| match variable % 2 {
+            0 => (1, vec![0, 1, 1]),
+            _ => (2, vec![DEAD, 0, 0, 0, 0, DEAD]),
+        };
+        let layers = (0..variables).map(|variable| Layer {
+            variable,
+            nodes: of(variable).0,
+            choices: keys.len(),
+            edges: of(variable).1,
+        });
+        let end = Redundancy {
+            internal: 3,
+            ..Redundancy::default()
+        };
+        let diagram = Diagram::whole(layers.collect(), vec![end]);
+        let steps = Steps::of_keys(vec![keys; variables]);
+        let room = 1 << 20;
+        let whole = Tally::<u128>::new(&diagram, &steps, None, room).unwrap();
+        let parts = totals::<u128>(&diagram, &steps, room).unwrap();
+        assert_eq!(parts, whole.totals());
+        assert_eq!(parts.iter().map(|(_, n)| n).sum::<u128>(), 6u128.pow(3));
     }
 }

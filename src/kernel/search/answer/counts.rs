@@ -3,7 +3,7 @@
 use crate::search::answer::count::{Count, Wide};
 use crate::search::answer::count_tables::totals;
 use crate::search::answer::keys::{Key, Kinds};
-use crate::search::diagram::Diagram;
+use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use num_bigint::BigUint;
 use num_traits::Zero;
@@ -115,17 +115,74 @@ pub(crate) fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Co
         changes: true,
         cost: false,
     };
-    let mut counts = Counts::default();
-    let Some(totals) = totals_by(question, diagram, all) else {
-        counts.only_total = true;
-        counts.total = total(question, diagram, filter);
-        return counts;
+    let Some(totals) = wanted_by(question, diagram, filter, all) else {
+        return only_total(question, diagram, filter);
     };
-    let wanted = |key: &Key| !filter || question.wanted(*key);
-    for (key, count) in totals.iter().filter(|(k, _)| wanted(k)) {
+    let mut counts = Counts::default();
+    for (key, count) in &totals {
         counts.add(question.mobility(*key), *key, count);
     }
     counts
+}
+
+/// Counts the variants of a diagram by W and by changes, but not by both: of hundreds of joints there are thousands of each, and
+/// millions of pairs. `filter` applies the conditions on mobility and changes too.
+#[must_use]
+pub(crate) fn sums(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+    let of = |kinds| wanted_by(question, diagram, filter, kinds);
+    let by_freedoms = of(Kinds {
+        freedoms: true,
+        ..Kinds::default()
+    });
+    let by_changes = of(Kinds {
+        changes: true,
+        ..Kinds::default()
+    });
+    let Some((by_freedoms, by_changes)) = by_freedoms.zip(by_changes) else {
+        return only_total(question, diagram, filter);
+    };
+    let mut counts = Counts::default();
+    for (key, count) in &by_freedoms {
+        counts.add(question.mobility(*key), *key, count);
+    }
+    counts.by_mobility_and_changes.clear();
+    counts.by_changes.clear();
+    for (key, count) in &by_changes {
+        *counts.by_changes.entry(key.changes()).or_default() += count;
+    }
+    counts
+}
+
+/// Counts the variants of a diagram where there is no memory to tell them apart.
+fn only_total(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
+    Counts {
+        only_total: true,
+        total: total(question, diagram, filter),
+        ..Counts::default()
+    }
+}
+
+/// How many variants a diagram has of each kind; with `filter` those that meet the conditions on mobility and changes, which are then
+/// told apart by these, too. `None` as of [`totals_by`].
+fn wanted_by(
+    question: &Question,
+    diagram: &Diagram,
+    filter: bool,
+    kinds: Kinds,
+) -> Option<Vec<(Key, BigUint)>> {
+    let limited = if filter {
+        limited(question)
+    } else {
+        Kinds::default()
+    };
+    let kinds = Kinds {
+        freedoms: kinds.freedoms || limited.freedoms,
+        changes: kinds.changes || limited.changes,
+        cost: kinds.cost,
+    };
+    let mut totals = totals_by(question, diagram, kinds)?;
+    totals.retain(|(key, _)| !filter || question.wanted(*key));
+    Some(totals)
 }
 
 /// Whether every count fits 128 bits.
@@ -144,7 +201,7 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
         let totals = totals::<C>(diagram, &s.steps.only(kinds), s.conditions.memory / 4)?;
         Some(totals.iter().map(|(k, n)| (*k, n.big())).collect())
     }
-    let count = match question.space.size().bits() {
+    let count = match bits(question, diagram) {
         0..=127 => with::<u128>,
         128..=256 => with::<Wide<4>>,
         257..=384 => with::<Wide<6>>,
@@ -155,6 +212,28 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
         _ => with::<BigUint>,
     };
     count(question, diagram, kinds)
+}
+
+/// Bits that suffice for the number of a diagram's variants, which a sum of fewer terms does not exceed.
+fn bits(question: &Question, diagram: &Diagram) -> u64 {
+    let all = question.space.size().bits();
+    let mut below = vec![1.0; diagram.terminals.len()];
+    for layer in diagram.layers.iter().rev().filter(|_| all > 127) {
+        let of_node = |edges: &[u32]| -> f64 {
+            let alive = edges.iter().filter(|to| **to != DEAD);
+            alive.map(|&to| below[to as usize]).sum()
+        };
+        below = layer
+            .edges
+            .chunks(layer.choices.max(1))
+            .map(of_node)
+            .collect();
+    }
+    // Sums of a million rounded terms are wrong by far less than half.
+    match below.first().map(|n| n.log2()) {
+        Some(log) if log.is_finite() && log > 0.0 => all.min(log as u64 + 2),
+        _ => all,
+    }
 }
 
 /// What must be told apart to know whether a variant meets the conditions on mobility and changes.
@@ -169,15 +248,8 @@ pub(in crate::search) fn limited(question: &Question) -> Kinds {
 /// How many variants a diagram has; `filter` applies the conditions on mobility and changes too. None that the memory there
 /// is does not suffice to count.
 pub(in crate::search) fn total(question: &Question, diagram: &Diagram, filter: bool) -> BigUint {
-    let needed = if filter {
-        limited(question)
-    } else {
-        Kinds::default()
-    };
-    let totals = totals_by(question, diagram, needed);
-    let all = totals.into_iter().flatten();
-    let wanted = all.filter(|(k, _)| !filter || question.wanted(*k));
-    wanted.map(|(_, n)| n).sum()
+    let totals = wanted_by(question, diagram, filter, Kinds::default());
+    totals.into_iter().flatten().map(|(_, n)| n).sum()
 }
 
 /// Counts by cost in thousandths of the variants of a diagram that meet every condition; `None` where they would take
@@ -186,14 +258,12 @@ pub(in crate::search) fn total(question: &Question, diagram: &Diagram, filter: b
 pub fn counts_by_cost(question: &Question, diagram: &Diagram) -> Option<BTreeMap<i64, BigUint>> {
     let kinds = Kinds {
         cost: true,
-        ..limited(question)
+        ..Kinds::default()
     };
     let mut out = BTreeMap::new();
-    for (key, count) in totals_by(question, diagram, kinds)? {
-        if question.wanted(key) {
-            *out.entry(question.steps.milli(key.cost()))
-                .or_insert_with(BigUint::zero) += count;
-        }
+    for (key, count) in wanted_by(question, diagram, true, kinds)? {
+        *out.entry(question.steps.milli(key.cost()))
+            .or_insert_with(BigUint::zero) += count;
     }
     Some(out)
 }
