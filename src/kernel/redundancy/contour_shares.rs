@@ -97,6 +97,9 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
         }
         span.rank()
     };
+    // Most self-stresses load few contours.
+    let loaded = stresses.iter().map(|s| loaded_parts(s, dim).collect());
+    let loaded: Vec<Vec<(usize, &[Residue])>> = loaded.collect();
     // Columns are grouped by joint, in file order.
     let of_joint = |j| {
         let from = closure.columns.partition_point(|c| c.joint < j);
@@ -121,7 +124,7 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
                 redundant: ending[i],
                 range: (dim - ranks(&mut own), greatest),
                 over_bases: over_bases(&closure.contours, i, greatest, |weights| {
-                    let mixed = stresses.iter().map(|s| combined(exact, s, weights, dim));
+                    let mixed = loaded.iter().map(|s| combined(exact, s, weights, dim));
                     let mixed: Vec<Vec<Residue>> = mixed.collect();
                     ranks(&mut mixed.iter().map(Vec::as_slice))
                 }),
@@ -130,12 +133,24 @@ pub fn shares(exact: &ExactField, closure: &Closure<Residue>) -> Vec<ContourShar
         .collect()
 }
 
-/// Returns the parts of a self-stress in the contours' rows, times these weights and summed.
-fn combined(exact: &ExactField, stress: &[Residue], weights: &[i64], dim: usize) -> Vec<Residue> {
+/// Returns the loops that a self-stress loads, with its entries in their rows.
+fn loaded_parts(stress: &[Residue], dim: usize) -> impl Iterator<Item = (usize, &[Residue])> {
+    let parts = stress.chunks(dim).enumerate();
+    parts.filter(|(_, part)| part.iter().any(|&x| x != 0))
+}
+
+/// Returns the parts of a self-stress in the loops' rows, times these weights and summed.
+fn combined(
+    exact: &ExactField,
+    stress: &[(usize, &[Residue])],
+    weights: &[i64],
+    dim: usize,
+) -> Vec<Residue> {
     let field = exact.field();
     let mut sum = vec![0; dim];
-    for (&w, part) in weights.iter().zip(stress.chunks(dim)) {
-        let w = field.from_i64(w);
+    // Rows of couplings come after those of contours.
+    for &(contour, part) in stress.iter().filter(|(c, _)| *c < weights.len()) {
+        let w = field.from_i64(weights[contour]);
         for (x, &y) in sum.iter_mut().zip(part) {
             *x = field.add(*x, field.mul(w, y));
         }
