@@ -33,12 +33,14 @@ impl MatrixOverRing {
             if row >= rows || column >= columns || !ring.contains(&number) {
                 return None;
             }
-            by_column[column].insert(row, number);
+            if number.is_zero() {
+                by_column[column].remove(&row);
+            } else {
+                by_column[column].insert(row, number);
+            }
         }
-        let columns = by_column
-            .into_iter()
-            .map(|c| c.into_iter().filter(|(_, x)| !x.is_zero()).collect())
-            .collect();
+        let columns = by_column.into_iter();
+        let columns = columns.map(|c| c.into_iter().collect()).collect();
         Some(MatrixOverRing {
             ring,
             cosine_order,
