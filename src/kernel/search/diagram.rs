@@ -237,9 +237,10 @@ pub(super) fn next(
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(usize),
 ) -> Merge {
-    // Children that are not merged yet may take an eighth of the memory; one is about as large as its parent.
+    // Children that are not merged yet may take an eighth of the memory, and no more than stays in use from batch to batch; one is about
+    // as large as its parent.
     let each = nodes.bytes() / nodes.len().max(1);
-    let size = (bytes / 8 / (each * choices.len()).max(1))
+    let size = (CHILDREN.min(bytes / 8) / (each * choices.len()).max(1))
         .min(BATCH / (carries.effort(each) * choices.len()).max(1))
         .clamp(CUT, MOST);
     for batch in (0..nodes.len()).step_by(size) {
@@ -258,6 +259,8 @@ pub(super) fn next(
     merge
 }
 
+/// Bytes of children that are not merged yet: of more the system takes back the memory, and clears it again for the next batch.
+const CHILDREN: usize = 1 << 23;
 /// Nodes expanded at most before their children are merged.
 const MOST: usize = 1 << 14;
 /// Field operations on them at most, so that whoever cancels need not wait: less than a tenth of a second.
