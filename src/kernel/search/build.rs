@@ -6,6 +6,7 @@ mod estimates;
 mod known_spaces;
 pub(in crate::search) mod known_variants;
 pub(in crate::search) mod lanes;
+mod matching_halves;
 pub mod orders;
 mod path_tree;
 pub(in crate::search) mod self_stress;
@@ -147,8 +148,10 @@ fn build_lasting(
     if is_empty(at_the_pose) {
         return Ok(at_the_pose.clone());
     }
+    // It is wanted whole or not at all.
     let limits = Limits {
         already: along.model.already,
+        layer: question.conditions.nodes,
         ..limits(question)
     };
     let built = built(

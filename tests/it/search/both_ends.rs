@@ -2,6 +2,7 @@
 
 use crate::common::*;
 use crate::search::beyond_budget::{ladder, search};
+use crate::search::families::scissor_lift;
 use crate::search::twin::look;
 use ozols::search::build::Diagrams;
 use ozols::search::diagram::{Diagram, Stop};
@@ -103,6 +104,16 @@ fn both_ends_of_what_is_built_in_meet() {
         }
     }
     assert!(edges > 1000, "{edges}");
+}
+
+/// Many nodes of a lift span the same and differ in how its platform moves: they are looked up, not tried in pairs.
+#[test]
+fn nodes_that_are_looked_up_meet_in_the_diagram_of_one_end() {
+    for stages in 3..6 {
+        let text = scissor_lift(stages);
+        let edges = assert_same(pairs(&text, true), &text);
+        assert!(edges > 100 << stages, "{edges}");
+    }
 }
 
 /// From one end it takes more than 20,000 nodes.

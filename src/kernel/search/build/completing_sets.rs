@@ -1,5 +1,7 @@
 //! Sets of the nodes of one half that complete those of the other.
 
+use crate::search::diagram::DEAD;
+use hashbrown::HashMap;
 use rayon::prelude::*;
 
 /// A set of nodes of one half.
@@ -27,6 +29,35 @@ pub(in crate::search) fn set(nodes: usize, mut is_in: impl FnMut(usize) -> bool)
         .filter(|&n| is_in(n))
         .for_each(|n| put(&mut out, n));
     out
+}
+
+/// The nodes of a set, ascending.
+pub(in crate::search) fn nodes(set: &[u64]) -> impl Iterator<Item = usize> {
+    set.iter().enumerate().flat_map(|(place, &word)| {
+        let more = |bits: &u64| Some(bits & (bits - 1)).filter(|b| *b != 0);
+        let left = std::iter::successors(Some(word).filter(|b| *b != 0), more);
+        left.map(move |bits| 64 * place + bits.trailing_zeros() as usize)
+    })
+}
+
+/// Different sets, numbered.
+#[derive(Default)]
+pub(in crate::search) struct Numbered {
+    known: HashMap<Set, u32>,
+    pub(in crate::search) all: Vec<Set>,
+}
+
+impl Numbered {
+    /// Returns the number of a set; [`DEAD`] of the empty one.
+    pub(in crate::search) fn of(&mut self, set: Set) -> u32 {
+        if set.iter().all(|&w| w == 0) {
+            return DEAD;
+        }
+        *self.known.entry(set).or_insert_with_key(|set| {
+            self.all.push(set.clone());
+            u32::try_from(self.all.len() - 1).expect("fewer than nodes")
+        })
+    }
 }
 
 /// Nodes looked at before it is asked whether all is cancelled, and told how many are done.

@@ -1,6 +1,7 @@
 //! The different spaces that known ways lead to.
 
 use crate::linalg::modp::Residue;
+use crate::search::build::completing_sets::nodes;
 use hashbrown::HashTable;
 
 /// Different spaces, packed, each with the choices on one of the ways that add it, and the nodes that such ways lead to: from the back
@@ -60,12 +61,7 @@ impl Spaces {
 
     /// The nodes that ways to a space lead to.
     pub(super) fn nodes(&self, space: usize) -> impl Iterator<Item = usize> {
-        let words = &self.nodes[space * self.words..][..self.words];
-        words.iter().enumerate().flat_map(|(place, &word)| {
-            let more = |bits: &u64| Some(bits & (bits - 1)).filter(|b| *b != 0);
-            let left = std::iter::successors(Some(word).filter(|b| *b != 0), more);
-            left.map(move |bits| 64 * place + bits.trailing_zeros() as usize)
-        })
+        nodes(&self.nodes[space * self.words..][..self.words])
     }
 
     /// Puts a node to those of a space.

@@ -73,15 +73,8 @@ impl PathTree {
         growing.tree
     }
 
-    /// The same nodes, each with a reduced basis of what its path adds in place of it: where many nodes are alike but for where they come
-    /// from, more of these begin alike.
-    pub(super) fn of_bases(&self, field: Field) -> PathTree {
-        let mut known: HashMap<Vec<Residue>, usize> = HashMap::new();
-        let mut vectors = Vectors {
-            field,
-            beyond: 0,
-            all: Vec::new(),
-        };
+    /// Returns a reduced basis of what the path to each node adds.
+    pub(super) fn bases(&self, field: Field) -> Vec<Vec<Vec<Residue>>> {
         let mut bases = vec![Vec::new(); self.nodes.len()];
         let mut path: Vec<usize> = Vec::new();
         for item in &self.items {
@@ -90,20 +83,35 @@ impl PathTree {
                 path.push(item.vector);
                 continue;
             }
-            let mut span = Echelon::new(field);
-            for &vector in &path {
-                span.insert(&self.vectors[vector * self.width..][..self.width]);
-            }
-            let number = |row: Vec<Residue>| {
-                *known.entry(row).or_insert_with_key(|row| {
-                    vectors.all.push(row.clone());
-                    vectors.all.len() - 1
-                })
-            };
-            // The last ones have few numbers that are not nothing, so that more bases have them in common.
-            bases[self.nodes[item.nodes]] = span.reduced().into_iter().rev().map(number).collect();
+            let added = path
+                .iter()
+                .map(|&v| &self.vectors[v * self.width..][..self.width]);
+            bases[self.nodes[item.nodes]] = Echelon::of(field, added).reduced();
         }
-        PathTree::new(&vectors, &bases)
+        bases
+    }
+
+    /// The tree of nodes that have such bases in place of their paths: where many are alike but for where they come from, more of these
+    /// begin alike.
+    pub(super) fn of_bases(field: Field, bases: &[Vec<Vec<Residue>>]) -> PathTree {
+        let mut known: HashMap<&[Residue], usize> = HashMap::new();
+        let mut vectors = Vectors {
+            field,
+            beyond: 0,
+            all: Vec::new(),
+        };
+        let mut number = |row| {
+            *known.entry(row).or_insert_with_key(|row: &&[Residue]| {
+                vectors.all.push(row.to_vec());
+                vectors.all.len() - 1
+            })
+        };
+        // The last ones have few numbers that are not nothing, so that more bases have them in common.
+        let paths: Vec<Vec<usize>> = bases
+            .iter()
+            .map(|rows| rows.iter().rev().map(|row| number(&row[..])).collect())
+            .collect();
+        PathTree::new(&vectors, &paths)
     }
 
     /// The different vectors that edges add.

@@ -5,8 +5,10 @@
 //! kept links where nothing of both together is in the coordinates of these alone. Nodes of the back half need no space for that: what
 //! the choices on one way to each add will do, and ways that begin alike are looked at together.
 
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
-use crate::search::build::completing_sets::{Set, completed};
+use crate::search::build::completing_sets::{Numbered, Set, completed};
+use crate::search::build::matching_halves::{Grouped, lookups, matched};
 use crate::search::build::path_tree::{PathTree, Vectors, numbered, shortest};
 use crate::search::build::self_stress::{Added, Wanted, adding, space};
 use crate::search::build::spanning_paths::{Annihilator, completing};
@@ -16,8 +18,11 @@ use crate::search::diagram::reduced_rows::{Arithmetic, Rows};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::question::Question;
 use crate::search::reduce::lifetimes::Lifetime;
+use crate::search::reduce::self_stress_space::SelfStressSpace;
 use std::collections::BTreeSet;
 
+/// Lookups of nodes that take about as long as a pair of them.
+const A_PAIR: usize = 5;
 /// Motions of kept links are told by one sum of their coordinates, each times a power of this: for one that is not nothing it is
 /// nothing as seldom as a number that is not nothing has the residue of nothing.
 const WEIGHT: i64 = 0x1e37_79b9_7f4a_7c15;
@@ -30,7 +35,8 @@ pub(in crate::search) struct Halves<'a> {
     pub(in crate::search) already: u32,
     /// When the coordinates of contours are in use, and how many there are of kept links.
     contours: Vec<Lifetime>,
-    kept: usize,
+    /// Whether the motion of kept links is told, by the number behind those of contours.
+    keeps: bool,
     /// Where each part starts, and the number of variables at the end.
     starts: Vec<usize>,
     /// The stages of each part, between which nothing is carried on, from the front and from the back.
@@ -46,14 +52,15 @@ impl<'a> Halves<'a> {
         wanted: Wanted,
     ) -> Option<Self> {
         let field = question.exact.field();
-        let front = space(question, order, wanted);
+        let told = |order: &[usize]| told_by_one_number(field, space(question, order, wanted));
+        let front = told(order);
         let already = limits.already.saturating_add(front.lasting);
         if already != limits.internal {
             return None;
         }
         let reversed: Vec<usize> = order.iter().rev().copied().collect();
         let orders = [order, &reversed];
-        let spaces = [front, space(question, &reversed, wanted)];
+        let spaces = [front, told(&reversed)];
         let all = order.len();
         let carried = |t: usize| spaces[0].contours.iter().any(|c| c.is_live_before(t));
         let mut starts: Vec<usize> = (0..all).filter(|&t| !carried(t)).collect();
@@ -73,41 +80,41 @@ impl<'a> Halves<'a> {
             field,
             limits,
             already,
+            keeps: !front.kept.is_empty(),
             contours: front.contours,
-            kept: front.kept.len(),
             starts,
             parts,
         })
     }
 
-    /// For each node of the front half of a part, which nodes of the back half, that layers from the back lead to, complete it; none
-    /// where it is cancelled. `told` hears of how many that is known.
+    /// Returns how the nodes of the front half of a part meet those of the back half, that layers from the back lead to.
     ///
     /// # Complexity
-    /// O(n·e·s²) field operations for n nodes of the front, e edges of the tree of paths to those of the back, and s self-stresses that
-    /// both reach; O(n·e·s) if most edges are the last of a path.
-    pub(in crate::search) fn join(
-        &self,
-        part: usize,
-        nodes: &Nodes,
-        back: &[Layer],
-        cancelled: &(dyn Fn() -> bool + Sync),
-        told: &mut dyn FnMut(usize),
-    ) -> Option<Vec<Set>> {
+    /// O(s³) field operations for each node, for s self-stresses that both halves reach.
+    pub(in crate::search) fn meeting(&self, part: usize, nodes: &Nodes, back: &[Layer]) -> Meeting {
         let f = self.field;
         let behind = self.behind(part, back.len());
-        let tree = PathTree::new(&behind.vectors, &shortest(back, &behind.added));
-        let bases = tree.of_bases(f);
-        let tree = if bases.size() < tree.size() {
-            bases
-        } else {
-            tree
-        };
-        let of_node = |node: usize| {
-            let left = behind.left(nodes.matrix(node));
-            completing(&tree, &left, self.kept > 0)
-        };
-        completed(nodes.len(), of_node, cancelled, told)
+        let paths = PathTree::new(&behind.vectors, &shortest(back, &behind.added));
+        let bases = paths.bases(f);
+        let tree = PathTree::of_bases(f, &bases);
+        let pairs = nodes.len().saturating_mul(bases.len());
+        let grouped = self.keeps.then(|| {
+            let mut grouped = [Grouped::default(), Grouped::default()];
+            (0..nodes.len()).for_each(|n| grouped[0].take(n, behind.rows(nodes.matrix(n))));
+            let bases = bases.into_iter().enumerate();
+            bases.for_each(|(n, rows)| grouped[1].take(n, rows));
+            grouped
+        });
+        Meeting {
+            tree: if tree.size() < paths.size() {
+                tree
+            } else {
+                paths
+            },
+            grouped: grouped.filter(|[front, back]| lookups(front, back) / A_PAIR < pairs),
+            behind,
+            pairs,
+        }
     }
 
     /// What the last stages of a part add, so many of them.
@@ -121,9 +128,6 @@ impl<'a> Halves<'a> {
         let live: Vec<usize> = (0..self.contours.len()).filter(is_live).collect();
         let reached = behind.iter().flat_map(Added::contours).copied();
         let beyond: BTreeSet<usize> = reached.filter(|c| !is_live(c)).collect();
-        let weights: Vec<Residue> = (0..self.kept)
-            .map(|i| f.pow(f.from_i64(WEIGHT), i as u64))
-            .collect();
         let mut vectors = Vectors {
             field: f,
             beyond: beyond.len(),
@@ -134,9 +138,8 @@ impl<'a> Halves<'a> {
                 let (own, kept) = row.split_at(stage.contours().len());
                 let number = |c| stage.contours().binary_search(c).map_or(0, |at| own[at]);
                 let all = beyond.iter().chain(&live).map(number);
-                vectors
-                    .all
-                    .push(all.chain([f.dot(&weights, kept)]).collect());
+                let kept = kept.first().copied().unwrap_or(0);
+                vectors.all.push(all.chain([kept]).collect());
                 vectors.all.len() - 1
             })
         });
@@ -144,9 +147,26 @@ impl<'a> Halves<'a> {
             added: added.collect(),
             vectors,
             live: live.len(),
-            weights,
+            keeps: self.keeps,
         }
     }
+}
+
+/// Returns a space with one number for the motion of kept links in place of its coordinates.
+fn told_by_one_number(field: Field, mut space: SelfStressSpace) -> SelfStressSpace {
+    let (contours, kept) = (space.contours.len(), space.kept.len());
+    let weight = field.from_i64(WEIGHT);
+    let weights: Vec<Residue> = (0..kept).map(|i| field.pow(weight, i as u64)).collect();
+    for choice in space.added.iter_mut().flatten().filter(|_| kept > 0) {
+        for vector in &mut *choice {
+            let number = field.dot(&weights, &vector[contours..]);
+            vector.truncate(contours);
+            vector.push(number);
+        }
+        *choice = Echelon::of(field, &*choice).reduced();
+    }
+    space.kept.truncate(1);
+    space
 }
 
 /// What the last stages of a part add, in the coordinates of contours that the stages before them do not reach, then in those that they
@@ -157,8 +177,8 @@ pub(in crate::search) struct Behind {
     added: Vec<Vec<Vec<usize>>>,
     /// Coordinates of contours that the stages before reach, too.
     pub(in crate::search) live: usize,
-    /// Those of kept links are told by the sum of their coordinates times these.
-    weights: Vec<Residue>,
+    /// Whether the motion of kept links is told.
+    keeps: bool,
 }
 
 impl Behind {
@@ -188,19 +208,76 @@ impl Behind {
         matrix: &[Residue],
         rows: &mut Rows,
     ) {
-        let width = self.live + self.weights.len();
+        let width = self.live + usize::from(self.keeps);
         rows.unpack(arithmetic, width, matrix);
     }
 
-    /// What the matrix of a node before these stages leaves to be spanned.
-    fn left(&self, matrix: &[Residue]) -> Annihilator {
-        let f = self.vectors.field;
+    /// The same with a number of kept links whether it is told or not.
+    fn rows(&self, matrix: &[Residue]) -> Vec<Vec<Residue>> {
         let mut rows = Rows::default();
-        self.unpacked(&mut Arithmetic::new(f), matrix, &mut rows);
-        let rows = rows.rows().map(|row| {
-            let (contours, kept) = row.split_at(self.live);
-            [contours, &[f.dot(&self.weights, kept)]].concat()
+        self.unpacked(&mut Arithmetic::new(self.vectors.field), matrix, &mut rows);
+        let widened = rows.rows().map(|row| {
+            let mut row = row.to_vec();
+            row.resize(self.live + 1, 0);
+            row
         });
-        Annihilator::new(f, rows, self.live + 1)
+        widened.collect()
+    }
+}
+
+/// How the nodes of both halves of a part meet.
+pub(in crate::search) struct Meeting {
+    behind: Behind,
+    /// The paths from the back, for pairs of nodes.
+    tree: PathTree,
+    /// The nodes of both halves, where it takes less time to look them up than to look at all pairs.
+    grouped: Option<[Grouped; 2]>,
+    pairs: usize,
+}
+
+impl Meeting {
+    /// Returns how many pairs of nodes are looked at: none where nodes are looked up.
+    pub(in crate::search) fn pairs(&self) -> usize {
+        if self.grouped.is_some() {
+            0
+        } else {
+            self.pairs
+        }
+    }
+
+    /// Returns for each node of the front the number of the set of those of the back that complete it, or [`DEAD`], and the different
+    /// sets; `None` where they take more than some bytes or where it is cancelled. `told` hears of how many that is known.
+    ///
+    /// # Complexity
+    /// O(n·e·s²) field operations for n nodes of the front, e edges of the tree of paths to those of the back, and s self-stresses that
+    /// both reach; O(n·e·s) if most edges are the last of a path; less where many nodes span the same space of contours.
+    ///
+    /// [`DEAD`]: crate::search::diagram::DEAD
+    pub(in crate::search) fn join(
+        &self,
+        nodes: &Nodes,
+        bytes: usize,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        told: &mut dyn FnMut(usize),
+    ) -> Option<(Vec<u32>, Vec<Set>)> {
+        let (f, live) = (self.behind.vectors.field, self.behind.live);
+        if let Some(grouped) = &self.grouped {
+            return matched(f, live, grouped, bytes, cancelled, told);
+        }
+        if self.pairs / 8 > bytes {
+            return None;
+        }
+        let of_node = |node: usize| {
+            let rows = self.behind.rows(nodes.matrix(node));
+            completing(
+                &self.tree,
+                &Annihilator::new(f, rows, live + 1),
+                self.behind.keeps,
+            )
+        };
+        let sets = completed(nodes.len(), of_node, cancelled, told)?;
+        let mut numbered = Numbered::default();
+        let of_node = sets.into_iter().map(|set| numbered.of(set)).collect();
+        Some((of_node, numbered.all))
     }
 }

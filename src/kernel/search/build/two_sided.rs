@@ -2,23 +2,23 @@
 //!
 //! Nodes with the same futures may differ in what they add to the present joints, and in coupled contours most do. Here one half of
 //! the variables is taken from the front and the other from the back, until they meet; which nodes of the one complete which of
-//! the other is tested for every pair. What a node of the front is completed by says all of its future, so those with the same set
-//! are one, and the sets lead on: a variable's choice turns the set of completions by what is left, read off the edges of the
-//! half that came from the back. The outcome is the smallest diagram there is, and exact.
+//! the other is [looked up](super::matching_halves), or tested for every pair. What a node of the front is completed by says all of its
+//! future, so those with the same set are one, as are those of the back that complete the same. The sets lead on: a variable's choice turns
+//! the set of completions by what is left, read off the edges of the half that came from the back. The outcome is the smallest diagram there
+//! is, and exact.
 //!
 //! # Sources
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
-use crate::search::build::completing_sets::{Set, has, set};
+use crate::search::build::completing_sets::{Numbered, Set, has, nodes, none, put, set};
 use crate::search::build::self_stress::Added;
-use crate::search::build::spanning_halves::Halves;
+use crate::search::build::spanning_halves::{Halves, Meeting};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
-use crate::search::diagram::redundancy_so_far::Spent;
-use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Meeting, Progress, Stop, next};
+use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
+use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress, Stop, next};
 use crate::search::question::space::Space;
-use hashbrown::HashMap;
 use rayon::prelude::*;
 
 /// Pairs of nodes tried at most, for each node of the budget.
@@ -66,11 +66,6 @@ struct Met<'a> {
 }
 
 impl Met<'_> {
-    fn pairs(&self) -> usize {
-        let [front, back] = [&self.front, &self.back].map(|side| side.nodes.len());
-        front.saturating_mul(back)
-    }
-
     fn bytes(&self) -> usize {
         self.front.bytes() + self.back.bytes()
     }
@@ -109,41 +104,55 @@ pub(in crate::search) fn two_sided(
         total += met.front.nodes.len() + met.back.nodes.len();
         parts.push(met);
     }
-    let pairs = parts.iter().map(Met::pairs).fold(0, usize::saturating_add);
     let held: usize = parts.iter().map(Met::bytes).sum();
     let left = question.limits.bytes.checked_sub(held)?;
-    if pairs / PAIRS > question.limits.nodes || pairs / 8 > left / 4 {
+    let met = parts.into_iter().enumerate().map(|(part, met)| {
+        let meeting = question.meeting(part, &met.front.nodes, &met.back.layers);
+        (met, meeting)
+    });
+    let parts: Vec<(Met<'_>, Meeting)> = met.collect();
+    let pairs = parts.iter().map(|(_, meeting)| meeting.pairs());
+    let pairs = pairs.fold(0, usize::saturating_add);
+    if pairs / PAIRS > question.limits.nodes {
         return None;
     }
     if let Some(whole) = from_one_end(pairs / (PAIRS_A_SQUARE * space.dim.pow(2)), progress) {
         return Some(whole);
     }
-    joined(question, parts, cancelled, &mut |done, nodes, meeting| {
-        progress(Progress {
-            done,
-            of,
-            nodes,
-            layer: meeting.of,
-            meeting: Some(meeting),
-        });
-    })
+    joined(
+        question,
+        parts,
+        left / 4,
+        cancelled,
+        &mut |done, nodes, meeting| {
+            progress(Progress {
+                done,
+                of,
+                nodes,
+                layer: meeting.of,
+                meeting: Some(meeting),
+            });
+        },
+    )
 }
 
 /// The diagram of parts whose halves are there; `told` hears of the layers and nodes so far, and how far halves have met.
 fn joined(
     question: &Halves<'_>,
-    parts: Vec<Met<'_>>,
+    parts: Vec<(Met<'_>, Meeting)>,
+    bytes: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize, usize, Meeting),
+    told: &mut dyn FnMut(usize, usize, diagram::Meeting),
 ) -> Option<Diagram> {
     let most = question.limits.nodes;
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
-    for (part, met) in parts.into_iter().enumerate() {
+    for (met, meeting) in parts {
         let of = met.front.nodes.len();
-        let told = &mut |done: usize| told(layers.len(), total, Meeting { done, of });
-        let sets = question.join(part, &met.front.nodes, &met.back.layers, cancelled, told)?;
-        let found = put_together(met.front.layers, &met.back.layers, sets, most)?;
+        let told = &mut |done: usize| told(layers.len(), total, diagram::Meeting { done, of });
+        let (of_front, sets) = meeting.join(&met.front.nodes, bytes, cancelled, told)?;
+        let (back, sets) = without_twins(met.back.layers, sets);
+        let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
         if total > most {
             return None;
@@ -220,17 +229,47 @@ fn advance(
     Some(())
 }
 
-/// The front's layers, and from there on layers of the sets of nodes of the back that complete what was chosen; none where they
-/// are more than so many nodes.
+/// Layers from the back, with nodes that complete the same nodes of the front as one, and the sets of what completes these in the new
+/// nodes.
+fn without_twins(mut back: Vec<Layer>, sets: Vec<Set>) -> (Vec<Layer>, Vec<Set>) {
+    let Some(last) = back.last_mut() else {
+        return (back, sets);
+    };
+    let alive = || last.edges.iter().filter(|e| **e != DEAD);
+    let most = alive().max().map_or(0, |&e| e as usize + 1);
+    let mut completes = vec![none(sets.len()); most];
+    for (number, set) in sets.iter().enumerate() {
+        nodes(set).for_each(|node| put(&mut completes[node], number));
+    }
+    let mut numbered = Numbered::default();
+    let kinds: Vec<u32> = completes.into_iter().map(|set| numbered.of(set)).collect();
+    let alive = last.edges.iter_mut().filter(|e| **e != DEAD);
+    alive.for_each(|e| *e = kinds[*e as usize]);
+    let mut example = vec![0; numbered.all.len()];
+    for (node, &kind) in kinds.iter().enumerate().filter(|(_, k)| **k != DEAD) {
+        example[kind as usize] = node;
+    }
+    // Ends that differ are not put together.
+    let kind = |internal| Redundancy {
+        internal,
+        ..Redundancy::default()
+    };
+    let smallest = minimal(back, (0..).map(kind).take(example.len()).collect());
+    let ends = smallest.terminals.iter();
+    let examples: Vec<usize> = ends.map(|kind| example[kind.internal as usize]).collect();
+    let anew = |old: &Set| set(examples.len(), |end| has(old, examples[end]));
+    (smallest.layers, sets.iter().map(anew).collect())
+}
+
+/// The front's layers, and from there on layers of the sets of nodes of the back that complete what was chosen, of which `of_front` has
+/// the numbers; none where they are more than so many nodes.
 fn put_together(
     mut layers: Vec<Layer>,
+    of_front: &[u32],
     back: &[Layer],
-    sets: Vec<Set>,
+    mut sets: Vec<Set>,
     most: usize,
 ) -> Option<Vec<Layer>> {
-    let (mut known, mut nodes) = (HashMap::new(), Vec::new());
-    let of_front = sets.into_iter().map(|s| number(s, &mut known, &mut nodes));
-    let of_front: Vec<u32> = of_front.collect();
     let met = layers.last_mut()?.edges.iter_mut().filter(|e| **e != DEAD);
     met.for_each(|e| *e = of_front[*e as usize]);
     for layer in back.iter().rev() {
@@ -241,31 +280,19 @@ fn put_together(
             })
         };
         let ways = |by: &Set| (0..layer.choices).map(|c| completed(by, c)).collect();
-        let ways: Vec<Vec<Set>> = nodes.par_iter().map(ways).collect();
-        let (mut known, mut below) = (HashMap::new(), Vec::new());
-        let edges = ways.into_iter().flatten();
-        let edges = edges.map(|s| number(s, &mut known, &mut below));
+        let ways: Vec<Vec<Set>> = sets.par_iter().map(ways).collect();
+        let mut below = Numbered::default();
+        let edges = ways.into_iter().flatten().map(|set| below.of(set));
         layers.push(Layer {
             variable: layer.variable,
-            nodes: nodes.len(),
+            nodes: sets.len(),
             choices: layer.choices,
             edges: edges.collect(),
         });
-        if below.len() > most {
+        if below.all.len() > most {
             return None;
         }
-        nodes = below;
+        sets = below.all;
     }
     Some(layers)
-}
-
-/// The number of a set among different ones; none of what nothing completes.
-fn number(set: Set, known: &mut HashMap<Set, u32>, all: &mut Vec<Set>) -> u32 {
-    if set.iter().all(|&w| w == 0) {
-        return DEAD;
-    }
-    *known.entry(set).or_insert_with_key(|set| {
-        all.push(set.clone());
-        u32::try_from(all.len() - 1).expect("fewer than nodes")
-    })
 }

@@ -60,7 +60,7 @@ impl<'a> Allowance<'a> {
         match stop {
             Stop::Exhausted => usize::MAX,
             // It is wanted whole or not at all.
-            Stop::NodeBudget if self.limits.layer < usize::MAX => self.fewest(),
+            Stop::NodeBudget | Stop::Memory if self.limits.layer < usize::MAX => self.fewest(),
             // Share what is left of the budget among the layers to come.
             Stop::NodeBudget | Stop::NotCounted => (self.left() / layers).max(self.fewest()),
             Stop::Memory => {

@@ -1,0 +1,187 @@
+//! Which nodes of both halves complete each other, told by what they span in contours and by how kept links move with it.
+//!
+//! What a node spans in the coordinates of contours is one of few spaces, where many nodes differ only in how kept links move. Whether two
+//! such spaces together are the whole is asked once. What both have in common closes every contour twice, once from each half, and kept
+//! links must move alike with it: a number tells how they do, and nodes with the same number complete each other. So nodes are looked up
+//! and not compared in pairs.
+
+use crate::linalg::echelon::{combination, relations};
+use crate::linalg::modp::{Field, Residue};
+use crate::search::build::completing_sets::{Numbered, Set, none, put};
+use crate::search::diagram::DEAD;
+use hashbrown::HashMap;
+use rayon::prelude::*;
+
+/// The motion of kept links with all that two spaces have in common is told by one sum over a basis of it, each times a power of this, as
+/// the coordinates of kept links are by a power of another number.
+const WEIGHT: i64 = 0x2545_f491_4f6c_dd1d;
+/// Groups looked at before it is asked whether all is cancelled.
+const BATCH: usize = 16;
+/// Lookups of nodes that take about as long as it takes to find what two spaces have in common.
+const LOOKUPS: usize = 200;
+
+/// The nodes that span the same space of contours.
+pub(super) struct Alike {
+    /// A basis of the space in reduced form, and its pivots.
+    rows: Vec<Vec<Residue>>,
+    pivots: Vec<usize>,
+    /// The nodes, each with the motion of kept links for each row.
+    nodes: Vec<(usize, Vec<Residue>)>,
+}
+
+/// Nodes of one half by the space of contours that they span.
+#[derive(Default)]
+pub(super) struct Grouped {
+    known: HashMap<Vec<Vec<Residue>>, usize>,
+    groups: Vec<Alike>,
+    nodes: usize,
+}
+
+impl Grouped {
+    /// Takes the next node, by its rows in reduced form, with the motion of kept links as the last number. One that moves these and closes
+    /// every contour is completed by none.
+    pub(super) fn take(&mut self, node: usize, mut rows: Vec<Vec<Residue>>) {
+        self.nodes += 1;
+        let moved: Vec<Residue> = rows.iter_mut().filter_map(Vec::pop).collect();
+        let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
+        let Some(pivots) = rows.iter().map(pivot).collect() else {
+            return;
+        };
+        let group = *self.known.entry(rows).or_insert_with_key(|rows| {
+            self.groups.push(Alike {
+                rows: rows.clone(),
+                pivots,
+                nodes: Vec::new(),
+            });
+            self.groups.len() - 1
+        });
+        self.groups[group].nodes.push((node, moved));
+    }
+}
+
+/// Returns how many lookups it takes to match two halves.
+pub(super) fn lookups(front: &Grouped, back: &Grouped) -> usize {
+    let (a, b) = (front.groups.len(), back.groups.len());
+    a * b * LOOKUPS + front.nodes * b + back.nodes * a
+}
+
+/// For each node of the front the set of those of the back that complete it; `None` where the sets take more than some bytes, or where it
+/// is cancelled. `told` hears how many nodes are done.
+///
+/// # Complexity
+/// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.
+pub(super) fn matched(
+    field: Field,
+    width: usize,
+    [front, back]: &[Grouped; 2],
+    bytes: usize,
+    cancelled: &(dyn Fn() -> bool + Sync),
+    told: &mut dyn FnMut(usize),
+) -> Option<(Vec<u32>, Vec<Set>)> {
+    let mut of_node = vec![DEAD; front.nodes];
+    let mut numbered = Numbered::default();
+    let mut done = 0;
+    for some in front.groups.chunks(BATCH) {
+        if cancelled() {
+            return None;
+        }
+        told(done);
+        let completed = |group| completed(field, width, group, back);
+        let found: Vec<Completed> = some.par_iter().map(completed).collect();
+        for (set, nodes) in found.into_iter().flatten() {
+            let number = numbered.of(set);
+            nodes.iter().for_each(|&node| of_node[node] = number);
+        }
+        done += some.iter().map(|group| group.nodes.len()).sum::<usize>();
+        if numbered.all.len() * back.nodes / 8 > bytes {
+            return None;
+        }
+    }
+    Some((of_node, numbered.all))
+}
+
+/// Sets of nodes of the back, each with the nodes of the front that it completes.
+type Completed = Vec<(Set, Vec<usize>)>;
+
+/// Returns what completes the nodes of a group, alike ones together.
+fn completed(field: Field, width: usize, group: &Alike, back: &Grouped) -> Completed {
+    // Nodes of the back that move kept links alike with what they have in common with the group.
+    let mut alike: Vec<Vec<usize>> = Vec::new();
+    let mut of_node: Vec<Vec<usize>> = vec![Vec::new(); group.nodes.len()];
+    for others in &back.groups {
+        let Some(common) = common(field, width, group, others) else {
+            continue;
+        };
+        let mut known: HashMap<Residue, usize> = HashMap::new();
+        for (found, (_, moved)) in of_node.iter_mut().zip(&group.nodes) {
+            let number = known.entry(field.dot(&common.front, moved));
+            found.push(*number.or_insert_with(|| {
+                alike.push(Vec::new());
+                alike.len() - 1
+            }));
+        }
+        for (node, moved) in &others.nodes {
+            if let Some(&number) = known.get(&field.dot(&common.back, moved)) {
+                alike[number].push(*node);
+            }
+        }
+    }
+    let mut nodes: HashMap<Vec<usize>, Vec<usize>> = HashMap::new();
+    let mut different = Vec::new();
+    for (mut found, (node, _)) in of_node.into_iter().zip(&group.nodes) {
+        found.retain(|&number| !alike[number].is_empty());
+        let same = nodes.entry(found).or_insert_with_key(|found| {
+            different.push(found.clone());
+            Vec::new()
+        });
+        same.push(*node);
+    }
+    let of = |found: Vec<usize>| {
+        let mut set = none(back.nodes);
+        let completing = found.iter().flat_map(|&number| &alike[number]);
+        completing.for_each(|&node| put(&mut set, node));
+        (set, nodes.remove(&found).unwrap_or_default())
+    };
+    different.into_iter().map(of).collect()
+}
+
+/// What the space of a group and that of one of the other half have in common: the sum of a basis, in factors of the rows of each.
+struct Common {
+    front: Vec<Residue>,
+    back: Vec<Residue>,
+}
+
+/// Returns what two groups have in common; `None` where they do not span all coordinates together.
+fn common(field: Field, width: usize, front: &Alike, back: &Alike) -> Option<Common> {
+    let missing = width - front.rows.len();
+    if back.rows.len() < missing {
+        return None;
+    }
+    let at_pivots =
+        |row: &Vec<Residue>| -> Vec<Residue> { front.pivots.iter().map(|&p| row[p]).collect() };
+    let within: Vec<Vec<Residue>> = back.rows.iter().map(at_pivots).collect();
+    let beside = back.rows.iter().map(|row| {
+        let mut row = row.clone();
+        for (own, &pivot) in front.rows.iter().zip(&front.pivots) {
+            field.subtract_multiple(&mut row[pivot..], &own[pivot..]);
+        }
+        row
+    });
+    let beside: Vec<Vec<Residue>> = beside.collect();
+    let same = relations(field, &beside);
+    if back.rows.len() - same.len() < missing {
+        return None;
+    }
+    let weight = field.from_i64(WEIGHT);
+    let weights: Vec<Residue> = (0..same.len())
+        .map(|i| field.pow(weight, i as u64))
+        .collect();
+    let mut sum = combination(field, &same, &weights);
+    sum.resize(back.rows.len(), 0);
+    let mut factors = combination(field, &within, &sum);
+    factors.resize(front.rows.len(), 0);
+    Some(Common {
+        front: factors,
+        back: sum,
+    })
+}
