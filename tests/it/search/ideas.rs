@@ -181,6 +181,17 @@ fn unlike(outcome: &Outcome, v: &Assignment, images: &[(&str, &str)]) -> usize {
         .count()
 }
 
+/// How many kinds of joints a variant puts in.
+fn kinds(outcome: &Outcome, v: &Assignment) -> usize {
+    let m = &outcome.search.mechanism;
+    let chosen = outcome.search.space.variables.iter().zip(&v.choices);
+    let put = chosen.filter(|(_, c)| **c != 0).map(|(variable, &c)| {
+        let option = variable.choices[c].option;
+        &m.joints[variable.joints[0]].options[option].name
+    });
+    put.unique().count()
+}
+
 fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
     let outcome = search(m, request).unwrap();
     let diagrams = outcome.diagrams.as_ref().unwrap();
@@ -190,12 +201,10 @@ fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
     let minimal = all
         .iter()
         .filter(|v| !all.iter().any(|w| is_beyond(&outcome, v, w)));
-    let mut classes: BTreeMap<Pattern, (Vec<&Assignment>, bool)> = BTreeMap::new();
+    let mut classes: BTreeMap<Pattern, Vec<&Assignment>> = BTreeMap::new();
     for v in minimal {
         let (own, image) = (twin.pattern(v, &[]), twin.pattern(v, images));
-        let alike = own == image;
-        let class = classes.entry(own.min(image)).or_insert((Vec::new(), alike));
-        class.0.push(v);
+        classes.entry(own.min(image)).or_default().push(v);
     }
     let rank = |v: &Assignment| {
         let weight = weight(m, &outcome, v);
@@ -216,7 +225,7 @@ fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
             twin.pattern(&idea.first, &[]),
             twin.pattern(&idea.first, images),
         );
-        let (members, alike) = classes.remove(&own.min(image)).unwrap();
+        let members = classes.remove(&own.min(image)).unwrap();
         assert!(members.contains(&&idea.first));
         assert_eq!(idea.variants, BigUint::from(members.len()));
         // What an image makes of a variant is as good.
@@ -224,7 +233,9 @@ fn agrees(m: &Mechanism, request: &Request, images: &[(&str, &str)]) {
         assert_eq!(rank(&idea.first), best);
         let cheap = members.iter().filter(|v| v.key.cost() == best.0);
         let least = cheap.map(|v| weight(m, &outcome, v)).min().unwrap();
-        let place = Some((best.0, !alike, least));
+        let symmetric = unlike(&outcome, &idea.first, images) == 0;
+        assert_eq!(idea.symmetric, (!images.is_empty()).then_some(symmetric));
+        let place = Some((best.0, !symmetric, kinds(&outcome, &idea.first), least));
         assert!(before <= place, "{before:?} {place:?}");
         before = place;
     }

@@ -75,20 +75,34 @@ impl Patterns {
         self.sum(v.choices.iter().copied().enumerate())
     }
 
-    /// What a variant has in common with all of its idea: its pattern or that of its image, whichever is less.
+    /// Returns what a variant has in common with all of its idea: its pattern or that of an image, whichever is least.
     pub(in crate::search) fn idea(&self, v: &Assignment) -> Pattern {
-        let pattern = self.of_variant(v);
-        let image = self.of_image(v);
-        pattern.min(image)
+        self.of_images(v).pop_first().unwrap_or_default()
     }
 
-    /// The pattern of a variant's image.
-    pub(in crate::search) fn of_image(&self, v: &Assignment) -> Pattern {
-        let chosen = v.choices.iter().copied().enumerate();
-        match &self.images {
-            None => self.sum(chosen),
-            Some(to) => self.sum(chosen.map(|(v, c)| (to[v], c))),
+    /// Returns the patterns of a variant and of its images.
+    pub(in crate::search) fn of_images(&self, v: &Assignment) -> BTreeSet<Pattern> {
+        let mut at = (0..v.choices.len()).collect_vec();
+        let mut out = BTreeSet::new();
+        // The last image is the variant again.
+        while out.insert(self.sum(at.iter().copied().zip(v.choices.iter().copied())))
+            && let Some(to) = &self.images
+        {
+            at.iter_mut().for_each(|v| *v = to[*v]);
         }
+        out
+    }
+
+    /// Returns how many joints have another choice than their images.
+    pub(in crate::search) fn unlike(&self, choices: &[usize]) -> usize {
+        let images = self.images.iter().flatten();
+        let unlike = images.zip(choices).filter(|(to, c)| choices[**to] != **c);
+        unlike.count()
+    }
+
+    /// Returns whether a variant is its own image; `None` where the mechanism has no symmetry.
+    pub(in crate::search) fn is_symmetric(&self, v: &Assignment) -> Option<bool> {
+        self.images.as_ref().map(|_| self.unlike(&v.choices) == 0)
     }
 
     /// After each layer of a diagram, how often each freedom can still be added.

@@ -1,8 +1,9 @@
 //! Ideas: minimal variants that give the same freedoms to the same contours, as one, shown by the one that is preferred.
 //!
-//! Ideas come in order of cost; of equal cost those first that do the same to what is alike in the mechanism, then those that
-//! keep its drive and its pivots in the frame ([`preference`](crate::search::question::preference)), then those with less
-//! mobility and fewer changes.
+//! Ideas come in order of cost; of equal cost those first whose shown variant is its own image, then those that put in fewer kinds of
+//! joints, then those that keep the drive and the pivots in the frame ([`preference`](crate::search::question::preference)), then
+//! those with less mobility and fewer changes. Of mechanisms with more than [`SORTED`] joints ideas are in order of cost alone, and of
+//! more than [`TOGETHER`] ideas of one cost each so many are ordered by themselves.
 
 mod preferred;
 
@@ -16,6 +17,7 @@ use crate::search::build::Diagrams;
 use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use crate::search::question::preference::weights;
+use crate::search::question::space::{Variable, choice_name};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use std::borrow::Cow;
@@ -30,6 +32,8 @@ pub struct Idea {
     pub added: Vec<Added>,
     /// How many there are, those included that the mechanism's own image makes of them.
     pub variants: BigUint,
+    /// Whether the shown one is its own image; `None` where the mechanism has no symmetry.
+    pub symmetric: Option<bool>,
 }
 
 /// Ideas of one cost that are looked at together, to bring them in order.
@@ -62,19 +66,33 @@ pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec
 }
 
 /// What ideas depend on besides the variants that they are made of and what these cost: what each choice adds to which contours, what
-/// joints the mechanism's own image makes of them, and the weights of their places.
+/// joints the mechanism's own image makes of them, the weights of their places, and the names of what choices put there.
 #[derive(Debug, PartialEq, Eq)]
 pub struct IdeaBasis {
     patterns: Patterns,
     weights: Vec<u64>,
+    /// `[variable][choice]`.
+    names: Vec<Vec<String>>,
 }
 
 impl IdeaBasis {
     pub(in crate::search) fn of(question: &Question) -> IdeaBasis {
+        let names = |v: &Variable| {
+            let name = |c| choice_name(&question.mechanism, v.joints[0], c);
+            v.choices.iter().map(name).collect()
+        };
         IdeaBasis {
             patterns: patterns(question),
             weights: weights(&question.mechanism, &question.space),
+            names: question.space.variables.iter().map(names).collect(),
         }
+    }
+
+    /// Returns how many kinds of joints a variant puts in.
+    fn kinds(&self, v: &Assignment) -> usize {
+        let chosen = self.names.iter().zip(&v.choices);
+        let put = chosen.filter(|(_, c)| **c != 0);
+        put.map(|(names, &c)| &names[c]).unique().count()
     }
 }
 
@@ -86,7 +104,9 @@ pub(in crate::search) fn ideas_in_steps(
     top: usize,
     steps_down: &mut usize,
 ) -> Vec<Idea> {
-    let IdeaBasis { patterns, weights } = basis;
+    let IdeaBasis {
+        patterns, weights, ..
+    } = basis;
     // Many weights make many kinds of each cost; then they only choose among those that stand for the same.
     let few = weights.iter().sum::<u64>() <= WEIGHED;
     let steps = if few {
@@ -95,11 +115,18 @@ pub(in crate::search) fn ideas_in_steps(
         question.steps.clone()
     };
     let firsts = firsts(question, diagram, patterns, &steps, top, steps_down);
-    let one = |first| {
-        let first = preferred::preferred(question, diagram, patterns, weights, first);
-        idea(question, diagram, patterns, first)
+    let shown = |(group, first)| {
+        let v = preferred::preferred(question, diagram, patterns, weights, first);
+        let order = (patterns.is_symmetric(&v) != Some(true), basis.kinds(&v));
+        ((group, order), v)
     };
-    firsts.into_iter().map(one).collect()
+    let mut shown = firsts.into_iter().map(shown).collect_vec();
+    if diagram.layers.len() <= SORTED {
+        shown.sort_by_key(|(order, _)| *order);
+    }
+    let listed = shown.into_iter().take(top);
+    let one = |(_, v)| idea(question, diagram, patterns, v);
+    listed.map(one).collect()
 }
 
 /// Ideas that are brought in order together: their cost in thousandths, and how many such groups of that cost come before.
@@ -112,7 +139,8 @@ fn group(cost: i64, found: &[(CostGroup, Assignment)]) -> CostGroup {
     (cost, before / TOGETHER)
 }
 
-/// Of each of the first ideas a variant, the cheapest and of these the one with least weight.
+/// Returns of each of the first ideas a variant, the cheapest and of these the one with least weight; where ideas are brought in order
+/// all of the groups that the first `top` belong to.
 fn firsts(
     question: &Question,
     diagram: &Diagram,
@@ -120,7 +148,7 @@ fn firsts(
     steps: &Steps,
     top: usize,
     steps_down: &mut usize,
-) -> Vec<Assignment> {
+) -> Vec<(CostGroup, Assignment)> {
     if top == 0 {
         return Vec::new();
     }
@@ -166,14 +194,7 @@ fn firsts(
         }
         slack = (2 * slack).max(1);
     }
-    if sorts {
-        best.sort_by_key(|(group, v)| {
-            let alike = patterns.of_variant(v) == patterns.of_image(v);
-            (*group, !alike)
-        });
-    }
-    best.truncate(top);
-    best.into_iter().map(|(_, v)| v).collect()
+    best
 }
 
 /// The first of each idea in a list of variants, with its place in the list.
@@ -210,6 +231,7 @@ pub fn ideas_among(
             (out.len() < top).then(|| {
                 out.push(Idea {
                     added: patterns.added(&patterns.of_variant(&v)),
+                    symmetric: patterns.is_symmetric(&v),
                     variants: BigUint::from(0u8),
                     first: v.clone(),
                 });
@@ -225,14 +247,14 @@ pub fn ideas_among(
 
 /// The idea of a variant, with how many of the diagram it stands for.
 fn idea(question: &Question, diagram: &Diagram, patterns: &Patterns, first: Assignment) -> Idea {
-    let [own, image] = [patterns.of_variant(&first), patterns.of_image(&first)];
-    let mut variants = with_pattern(question, diagram, patterns, &own);
-    if image != own {
-        variants += with_pattern(question, diagram, patterns, &image);
-    }
+    let alike = patterns.of_images(&first);
+    let alike = alike.iter();
     Idea {
-        added: patterns.added(&own),
-        variants,
+        added: patterns.added(&patterns.of_variant(&first)),
+        variants: alike
+            .map(|p| with_pattern(question, diagram, patterns, p))
+            .sum(),
+        symmetric: patterns.is_symmetric(&first),
         first,
     }
 }

@@ -89,12 +89,10 @@ struct Members<'a> {
 impl Members<'_> {
     /// What is less of a preferred variant.
     fn rank(&self, choices: &[usize], key: Key) -> Rank {
-        let images = self.patterns.images.iter().flatten();
-        let unlike = images.zip(choices).filter(|(to, c)| choices[**to] != **c);
         let changed = choices.iter().zip(self.weights).filter(|(c, _)| **c != 0);
         let weight = changed.map(|(_, weight)| weight).sum();
         (
-            unlike.count(),
+            self.patterns.unlike(choices),
             weight,
             self.question.mobility(key),
             key.changes(),
