@@ -150,6 +150,7 @@ impl State<'_> {
             "local_mobility": s.local_mobility,
             "drives": s.drives.iter().map(fault).collect::<Value>(),
             "redundant": s.redundant,
+            "gogu": self.gogu().map(|[m, n, s, t]| json!({ "M": m, "N": n, "S": s, "T": t })),
             "redundant_at_most": most.map(|(_, sigma)| sigma),
             "formula_mobility": s.formula_mobility,
             "least_rows": least_rows(m, s),
@@ -207,6 +208,7 @@ impl State<'_> {
                 "joint": self.joint(w.joint),
                 "moments": axes(w.moments),
                 "forces": axes(w.forces),
+                "text": self.carried(t, w),
                 // Its part of Σ |f|² + |m|²/ℓ² over the joints; nothing where that was not computed.
                 "share": w.borne.as_ref().map(|b| b.share()),
             })

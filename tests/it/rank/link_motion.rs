@@ -89,3 +89,54 @@ fn screws_and_connectivity() {
     let said = String::from_utf8(o.stderr).unwrap();
     has(&said, "has no link nowhere; it has: 0, 1, 2, 3");
 }
+
+/// What a joint carries of a self-stress is named as a moment where it has no force, and as a force along a line through its point where
+/// it has no moment about that. The line of a force goes where the force has no moment across it.
+#[test]
+fn wrenches_are_named() {
+    let mut seen = BTreeSet::new();
+    for name in ["gripper-10", "bennett", "sarrus", "3-crr", "four-bar"] {
+        let found = json(&format!("analyze {name} --format json"));
+        for stress in found["states"][0]["self_stresses"].list() {
+            for joint in stress["joints"].list() {
+                let name = joint["text"].word();
+                let [moments, forces] = ["moments", "forces"].map(|k| !joint[k].list().is_empty());
+                let kind = match (moments, forces) {
+                    (true, false) => name.starts_with("moment about ") && !name.contains("through"),
+                    (false, true) => name.starts_with("force along ") && !name.contains("through"),
+                    _ => name.contains(" through ") || name.starts_with("wrench along "),
+                };
+                assert!(kind, "{name}: {joint}");
+                seen.insert(
+                    name.split(' ').next().unwrap().to_owned()
+                        + if name.contains("through") {
+                            " through"
+                        } else {
+                            ""
+                        },
+                );
+            }
+        }
+    }
+    assert!(
+        seen.contains("moment") && seen.contains("force through"),
+        "{seen:?}"
+    );
+}
+
+/// A robot of three legs has Gogu's four numbers, which are W, σ, and the motions of its platform and of what that does not feel.
+#[test]
+fn robots_with_legs_have_the_numbers_of_gogu() {
+    let of = |name: &str| json(&format!("analyze {name} --format json"))["states"][0].take();
+    let crr = of("3-crr");
+    for (symbol, key) in [
+        ("M", "mobility"),
+        ("N", "redundant"),
+        ("S", "working_mobility"),
+        ("T", "local_mobility"),
+    ] {
+        assert_eq!(crr["gogu"][symbol], crr[key]);
+    }
+    assert!(of("gripper-10")["gogu"].is_null());
+    has(&out("analyze 3-crr"), "in Gogu's symbols: M = ");
+}

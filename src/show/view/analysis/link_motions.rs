@@ -1,8 +1,9 @@
-//! What links can do, in words and as data.
+//! What links can do, and what joints carry, in words and as data.
 
-use crate::geom::vector::{Vector, cross};
-use crate::model::mechanism::Mechanism;
+use crate::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::link_motion::LinkMotion;
+use crate::redundancy::stress_loads::Borne;
 use serde_json::{Value, json};
 
 /// A component of a direction, or a part of a length, below this is rounding.
@@ -83,6 +84,37 @@ fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
         }
         _ => "three rotations".to_owned(),
     })
+}
+
+/// Returns a wrench that a joint carries in words, as motions are named: "moment about x", "force along z", the line of which goes
+/// through the joint's point if no other is named, or "wrench along z through (0, 1, 0) m, pitch 2 m". The moment is in units of force
+/// times `size`, a length in the file's unit.
+#[must_use]
+pub(super) fn wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) -> String {
+    let Borne { force, moment } = *borne;
+    if length(force) < ROUNDING * length(moment) {
+        return format!("moment about {}", direction(unit(moment)));
+    }
+    let axis = unit(force);
+    let arm = scale(moment, size / length(force));
+    let (off, pitch) = (cross(axis, arm), dot(axis, arm));
+    let unit = m.length_unit.symbol;
+    let place = match length(off) < ROUNDING * size {
+        true => String::new(),
+        false => {
+            let point = add(real(&m.joints[joint].frame.point), off);
+            format!(" through {} {unit}", place(point))
+        }
+    };
+    let along = direction(axis);
+    if pitch.abs() < ROUNDING * size {
+        format!("force along {along}{place}")
+    } else {
+        format!(
+            "wrench along {along}{place}, pitch {} {unit}",
+            number(pitch)
+        )
+    }
 }
 
 /// Returns a number without its rounding.

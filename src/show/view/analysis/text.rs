@@ -3,12 +3,14 @@
 use super::{Analysis, State, agrees, axes, harm};
 use crate::format::{list, plural, plural_of};
 use crate::model::claim::Topic;
+use crate::model::mechanism::{LinkId, Role};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress};
 use crate::view::analysis::{idle, link_motions, suggestions};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::{as_read, claims, span};
 use itertools::Itertools;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Motions told at most; JSON has all.
@@ -56,8 +58,8 @@ impl State<'_> {
         } else if s.finite.figure() != s.mobility.to_string() || !s.finite.is_proven() {
             writeln!(out, "  {}", self.finite())?;
         }
-        for fault in &s.drives {
-            writeln!(out, "  {}", idle::fault(m, fault).2)?;
+        for fault in self.drive_faults() {
+            writeln!(out, "  {fault}")?;
         }
         let motions = self.motions();
         for motion in motions.iter().take(MOTIONS) {
@@ -135,6 +137,12 @@ impl State<'_> {
             self.finite(),
             s.redundant
         )?;
+        if let Some([m, n, s, t]) = self.gogu() {
+            writeln!(
+                out,
+                "  in Gogu's symbols: M = {m}, N = {n}, S = {s}, T = {t}"
+            )?;
+        }
         if self.counting_is_wrong() {
             writeln!(
                 out,
@@ -235,6 +243,31 @@ impl State<'_> {
         }
     }
 
+    /// Returns Gogu's M (mobility), N (redundant constraints), S (independent motions of the platform) and T (motions that it does not
+    /// feel), where two legs at least join one output to the frame.
+    pub(super) fn gogu(&self) -> Option<[usize; 4]> {
+        let (m, s) = (self.mechanism, self.found);
+        let mut outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
+        let ends = [m.frame(), outputs.next()?];
+        let state = m.state(&s.state)?;
+        let mut legs: Vec<BTreeSet<LinkId>> = Vec::new();
+        for joint in m.joints_in(state).map(|j| &m.joints[j]) {
+            let inner = joint.links.iter().copied().filter(|l| !ends.contains(l));
+            let mut leg: BTreeSet<LinkId> = inner.collect();
+            let (joined, others) = legs.into_iter().partition(|l| !l.is_disjoint(&leg));
+            legs = others;
+            leg.extend(Vec::into_iter(joined).flatten());
+            legs.push(leg);
+        }
+        let is_of_legs = outputs.next().is_none() && legs.len() > 1 && s.at_most().is_none();
+        is_of_legs.then_some([
+            s.mobility,
+            s.redundant,
+            s.working_mobility,
+            s.local_mobility,
+        ])
+    }
+
     /// The finite mobility and how it is known.
     #[must_use]
     pub fn finite(&self) -> String {
@@ -247,6 +280,12 @@ impl State<'_> {
     #[must_use]
     pub(crate) fn counting_is_wrong(&self) -> bool {
         i64::try_from(self.found.mobility) != Ok(self.found.formula_mobility)
+    }
+
+    /// Returns the faults of the drives in words.
+    pub(crate) fn drive_faults(&self) -> impl Iterator<Item = String> {
+        let faults = self.found.drives.iter();
+        faults.map(|f| idle::fault(self.mechanism, f).2)
     }
 
     /// Idle motions in words, those that read alike told once.
@@ -284,13 +323,22 @@ impl State<'_> {
     }
 
     /// Returns the joint where a self-stress has the fewest components, of the contacts where they have any, since that is where external
-    /// redundancy is felt, and which these are: "moments about x and y, force along z".
+    /// redundancy is felt, and what it carries there.
     pub(crate) fn simplest(&self, t: &SelfStress) -> Option<(&str, String)> {
         let joints = &self.mechanism.joints;
         let felt = t.joints.iter();
         let felt = felt.filter(|w| !t.external || joints[w.joint].states.is_some());
         let count = |w: &&JointWrench| w.moments.iter().chain(&w.forces).filter(|x| **x).count();
         let w = felt.min_by_key(count)?;
+        Some((self.joint(w.joint), self.carried(t, w)))
+    }
+
+    /// Returns what a joint carries of a self-stress: "force along z through (0, 1, 0) m", or where numbers are not known "moments about x
+    /// and y, force along z".
+    pub(super) fn carried(&self, t: &SelfStress, w: &JointWrench) -> String {
+        if let Some(borne) = &w.borne {
+            return link_motions::wrench(self.mechanism, w.joint, borne, t.size);
+        }
         let part = |noun: &str, along: &str, axes: &[&str]| {
             let s = if axes.len() == 1 { "" } else { "s" };
             (!axes.is_empty()).then(|| format!("{noun}{s} {along} {}", list(axes)))
@@ -299,7 +347,7 @@ impl State<'_> {
             part("moment", "about", &axes(w.moments)),
             part("force", "along", &axes(w.forces)),
         ];
-        Some((self.joint(w.joint), parts.into_iter().flatten().join(", ")))
+        parts.into_iter().flatten().join(", ")
     }
 
     /// Returns what a self-stress is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
