@@ -172,4 +172,15 @@ fn every_subset_of_freedoms_is_a_choice() {
         }
     }
     assert_eq!(at_one.len(), 30);
+    // Those that a part has and no type is, with the turn about z: a blade is stiff about its normal, a nut about its screw.
+    let parts = at_one.iter().filter(|name| name.ends_with("-x"));
+    let parts = parts.map(String::as_str).collect_vec();
+    let with_turn = [
+        "ball-in-v-groove-x",
+        "blade-flexure-x",
+        "floating-nut-x",
+        "wire-flexure-x",
+    ];
+    assert_eq!(parts, with_turn);
+    assert!(at_one.contains("rz+tx") && !at_one.contains("blade-flexure-z"));
 }

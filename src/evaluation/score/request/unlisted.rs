@@ -46,7 +46,7 @@ impl Request {
     }
 
     /// Offers every set of freedoms in its own frame at each joint that may change, but that of a joint which is not there: 30 beside
-    /// the present one at a hinge in space. A set that is a type has its name, another the names of its freedoms, as in `rz+tx`.
+    /// the present one at a hinge in space. A set that is a type has its name.
     fn offer_any(&self, mechanism: &mut Mechanism) {
         use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
         let changeable = |j: &JointId| is_changeable(&mechanism.joints[*j]);
@@ -172,11 +172,37 @@ fn is_changeable(joint: &Joint) -> bool {
     joint.is_in(StateId::FREE) && !joint.drive && joint.joint_type != JointType::Fixed
 }
 
+/// Returns the name of a set of freedoms that is no type: the part that has it with the axis of the joint's frame that it lies along,
+/// as `ball-in-v-groove-x`, or else its freedoms, as `rz+tx`. The axis of a blade flexure is the normal of the blade.
+///
+/// # Sources
+/// Blanding, "Exact Constraint: Machine Design Using Kinematic Principles", 1999: wire and sheet flexures.
+fn name_of_set(set: &[Freedom]) -> String {
+    use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
+    let all = [(Rx, Tx, "x"), (Ry, Ty, "y"), (Rz, Tz, "z")];
+    // Whether a part turns about an axis and slides along it.
+    let free = |i: usize| [set.contains(&all[i].0), set.contains(&all[i].1)];
+    let part = |i: usize| {
+        let [along, across, other] = [0, 1, 2].map(|k| free((i + k) % 3));
+        let name = match (along, across) {
+            _ if across != other => return None,
+            ([true, false], [true, true]) => "wire-flexure",
+            ([true, true], [true, false]) => "ball-in-v-groove",
+            ([false, true], [true, false]) => "blade-flexure",
+            ([false, false], [true, true]) => "floating-nut",
+            _ => return None,
+        };
+        Some(format!("{name}-{}", all[i].2))
+    };
+    let named = (0..3).find_map(part);
+    named.unwrap_or_else(|| set.iter().map(|f| f.name()).join("+"))
+}
+
 /// Offers a type at a joint, if it fits there, and returns whether it is offered.
 fn offer(mechanism: &mut Mechanism, id: JointId, joint_type: &JointType) -> bool {
     let joint = &mechanism.joints[id];
     let name = match joint_type {
-        JointType::Custom(set) => set.iter().map(|f| f.name()).join("+"),
+        JointType::Custom(set) => name_of_set(set),
         named => named.name().to_owned(),
     };
     // The file may offer the same motion under a name of its own.
