@@ -31,12 +31,25 @@ pub(super) struct Room {
     pub(super) newest: AtomicU64,
     pub(super) windows: Windows,
     told: Mutex<Told>,
-    /// The last search that was finished, and the revision it is of.
-    found: Mutex<Option<(u64, Arc<Outcome>)>>,
-    pub(super) request: Request,
+    /// The last search that was finished.
+    found: Mutex<Option<Arc<Found>>>,
+    /// What is asked at first, and what is asked in its place.
+    request: Request,
+    wider: Mutex<Option<Request>>,
     ended: AtomicBool,
     /// Searches that were begun and ended, for who wants to know that no two are at work.
     pub(super) searches: [AtomicU64; 2],
+}
+
+/// A search that was finished.
+#[derive(Debug)]
+pub(super) struct Found {
+    /// The text it is of.
+    pub(super) revision: u64,
+    /// What it found.
+    pub(super) outcome: Outcome,
+    /// The requests that find something, where it found nothing.
+    pub(super) wider: Vec<Request>,
 }
 
 fn locked<T>(m: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -54,6 +67,7 @@ impl Room {
             told: Mutex::default(),
             found: Mutex::default(),
             request,
+            wider: Mutex::default(),
             ended: AtomicBool::new(false),
             searches: Default::default(),
         })
@@ -146,15 +160,30 @@ impl Room {
     }
 
     /// Keeps what a search found.
-    pub(super) fn keep(&self, revision: u64, outcome: Arc<Outcome>) {
-        *locked(&self.found) = Some((revision, outcome));
+    pub(super) fn keep(&self, found: Found) {
+        *locked(&self.found) = Some(Arc::new(found));
     }
 
-    /// What was found for a revision.
-    pub(super) fn found(&self, revision: u64) -> Option<Arc<Outcome>> {
-        let found = locked(&self.found);
-        let found = found.as_ref().filter(|(r, _)| *r == revision);
-        found.map(|(_, o)| o.clone())
+    /// Returns what was found for a revision.
+    pub(super) fn found(&self, revision: u64) -> Option<Arc<Found>> {
+        let found = locked(&self.found).clone();
+        found.filter(|f| f.revision == revision)
+    }
+
+    /// Returns what is asked of a search, and whether it is wider than at first.
+    pub(super) fn request(&self) -> (Request, bool) {
+        let wider = locked(&self.wider).clone();
+        let is_wider = wider.is_some();
+        (wider.unwrap_or_else(|| self.request.clone()), is_wider)
+    }
+
+    /// Asks with a wider request from now on, or as at first, and returns what is told of the desk.
+    pub(super) fn ask(&self, wider: Option<Request>) -> Result<Value, Refused> {
+        *locked(&self.wider) = wider;
+        self.at_desk(|desk| {
+            desk.revision += 1;
+            Ok(())
+        })
     }
 
     pub(super) fn ended(&self) -> bool {

@@ -41,6 +41,14 @@ struct Idea {
     revision: u64,
 }
 
+/// The number of a wider request, from 0; none where all is asked as at first.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Wider {
+    wider: Option<usize>,
+    revision: u64,
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Yes {
@@ -180,6 +188,7 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
             })
         }
         "take" => take(&read(asked)?, room),
+        "ask" => ask(&read(asked)?, room),
         "settle" => {
             let Yes { yes } = read(asked)?;
             room.at_desk(|desk| {
@@ -198,12 +207,25 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
     }
 }
 
-fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
-    let old = || {
-        Refused::Conflict(
-            "the mechanism was changed after these ideas; the search runs again".to_owned(),
-        )
+/// Returns the refusal of ideas of an older state of the mechanism.
+fn old() -> Refused {
+    Refused::Conflict(
+        "the mechanism was changed after these ideas; the search runs again".to_owned(),
+    )
+}
+
+fn ask(asked: &Wider, room: &Room) -> Result<Value, Refused> {
+    let wider = match asked.wider {
+        None => None,
+        Some(n) => {
+            let found = room.found(asked.revision).ok_or_else(old)?;
+            Some(found.wider.get(n).cloned().ok_or_else(old)?)
+        }
     };
+    room.ask(wider)
+}
+
+fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
     let found = room.found(asked.revision).ok_or_else(old)?;
     let reading = {
         let desk = room.desk();
@@ -212,7 +234,7 @@ fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
         }
         desk.reading.clone()
     };
-    let taken = idea::take(&reading, &found, asked.idea)?;
+    let taken = idea::take(&reading, &found.outcome, asked.idea)?;
     let mut told = room.at_desk(|desk| match taken {
         Taken::Edits(edits) => desk.edit(&edits, None),
         Taken::Fixed(bytes) => {

@@ -1,7 +1,7 @@
 //! The work at the newest text: the verdict, the motion, the forces over it where the file states loads, the search. One thread does it; what another text makes useless ends.
 
 use super::idea;
-use super::room::Room;
+use super::room::{Found, Room};
 use crate::model::loads::Stroke;
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::page::moving::Moving;
@@ -16,6 +16,8 @@ use crate::view::FORMAT;
 use crate::view::analysis::Analysis;
 use crate::view::reactions::stroke::ReactionsOverStroke as Reactions;
 use crate::view::search::json;
+use crate::view::search::nothing_found::{hopeless, wider};
+use crate::view::terminal::next_commands::flags;
 use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -114,13 +116,15 @@ pub(super) fn judged(m: &Mechanism, states: &[StateAnalysis], revision: u64) -> 
 }
 
 fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
+    let (asked, is_wider) = room.request();
+    let flags = is_wider.then(|| flags(m, &asked));
     let request = Request {
         list: List::Top(IDEAS),
         // A ranking orders variants, not ideas.
         distinct: m.ranking.is_none(),
         // What changes while it is looked at is not gone through whole.
-        pool: Some(room.request.cheapest_scored()),
-        ..room.request.clone()
+        pool: Some(asked.cheapest_scored()),
+        ..asked
     };
     let mut notes = Vec::new();
     let mut tell = |event| match event {
@@ -144,12 +148,13 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
         Ok(None) => {}
         Ok(Some(mut ideas)) => {
             ideas["notes"] = notes.into();
+            ideas["asked"] = flags.into();
             room.tell(revision, "ideas", &ideas);
         }
         Err(why) => room.tell(
             revision,
             "ideas",
-            &json!({ "revision": revision, "why": why }),
+            &json!({ "revision": revision, "why": why, "asked": flags }),
         ),
     }
 }
@@ -170,8 +175,32 @@ fn given(
     json::write(&mut text, &outcome, variants, &remarks, None).map_err(|e| words(&e))?;
     let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
     let marks = idea::marks(m, states, &outcome, &found["variants"]);
-    let told = json!({ "revision": revision, "found": found, "marks": marks });
-    room.keep(revision, Arc::new(outcome));
+    let wider = wider(&outcome, &remarks).into_iter();
+    // The pool is set here at each search.
+    let own = |(request, gives)| {
+        (
+            Request {
+                pool: None,
+                ..request
+            },
+            gives,
+        )
+    };
+    let wider: Vec<(Request, String)> = wider.map(own).collect();
+    let step = |(request, gives): &(Request, String)| json!({ "flags": flags(m, request), "gives": gives });
+    let told = json!({
+        "revision": revision,
+        "found": found,
+        "marks": marks,
+        "hopeless": hopeless(m, &remarks.hopeless),
+        // In the order in which they are asked for by number.
+        "wider": wider.iter().map(step).collect::<Value>(),
+    });
+    room.keep(Found {
+        revision,
+        outcome,
+        wider: wider.into_iter().map(|(request, _)| request).collect(),
+    });
     Ok(told)
 }
 

@@ -65,6 +65,17 @@ fn faults_of_drives_are_found() {
     assert_eq!(faults(&ring(&stretched, &[0, 1], 2)), [dependent]);
 }
 
+/// The report says of the drives what the analysis says.
+#[test]
+fn faults_of_drives_are_in_the_report() {
+    let in_line = ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3);
+    let (_folder, file) = written("dead.toml", in_line);
+    has(
+        &out(&["report", file]),
+        "Dead point: the outputs stand still",
+    );
+}
+
 /// A drive of a clamped gripper is meant to be locked, and a dead point is no idle motion.
 #[test]
 fn what_is_meant_is_no_fault() {

@@ -218,6 +218,17 @@ fn pages_say_what_is_not_there() {
         &page,
         "none remove them all and keep the motion of links 4 and 8",
     );
+    // Where nothing is found it names what finds something, as the search does.
+    let next = run(&["search", "gripper-10", "--max-changes", "1"]);
+    let next = text(&next.stdout);
+    let steps = next
+        .lines()
+        .filter_map(|l| l.trim().strip_prefix("ozols search "));
+    let steps = steps.collect_vec();
+    assert!(steps.len() > 1, "{next}");
+    for step in steps {
+        has(&page, &format!("ozols report {step}"));
+    }
 }
 
 #[test]

@@ -11,7 +11,9 @@ use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
+use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Request};
+use crate::view::search::nothing_found::wider_commands;
 use crate::view::terminal::next_commands::{file_name, flags, stem};
 use anyhow::ensure;
 use clap::Args as ClapArgs;
@@ -45,7 +47,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
     let states = analyse(&written, &states, Method::Auto)?;
     let conditions = request.conditions(&prepared, &mut note);
     let mechanism = Arc::new(prepared.mechanism);
-    let write = |redesigns: Result<Redesigns<'_>, String>, ideas: Option<Redesigns<'_>>| {
+    let write = |redesigns: Result<Redesigns<'_>, String>, ideas, wider| {
         let page = html(&Page {
             mechanism: &mechanism,
             states: &states,
@@ -56,7 +58,10 @@ pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
             ),
             redesigns,
             ideas,
-            commands: commands(&mechanism, a, &request),
+            commands: Commands {
+                wider,
+                ..commands(&mechanism, a, &request)
+            },
         })?;
         output::to(a.output.as_deref(), |out| {
             out.write_all(page.as_bytes())?;
@@ -67,19 +72,22 @@ pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
     let (conditions, measured) = match conditions {
         Ok(conditions) => conditions,
         Err(why) => {
-            return write(Err(format!("{why}.")), None);
+            return write(Err(format!("{why}.")), None, Vec::new());
         }
     };
     let mut watch = SearchWatch::new(args.quiet);
     let outcome = watch.answer(mechanism.clone(), conditions, measured, &request)?;
     let ideas = (!request.distinct).then(|| {
         let given = outcome.ideas_unless(&interrupt::pending);
-        redesigns(&outcome, given)
+        redesigns(&outcome, given, Remarks::default())
     });
-    let variants = redesigns(&outcome, outcome.variants_unless(&interrupt::pending));
+    let remarks = outcome.remarks(&interrupt::pending)?;
+    let given = outcome.variants_unless(&interrupt::pending);
+    let wider = wider_commands(&outcome, &remarks, "report", &a.file.typed());
+    let variants = redesigns(&outcome, given, remarks);
     // What is left is to be drawn: whoever interrupts that wants no page.
     interrupt::be_impatient();
-    write(Ok(variants), ideas)
+    write(Ok(variants), ideas, wider)
 }
 
 /// Returns the search that the options ask for.
@@ -95,13 +103,14 @@ fn asked(args: &Global, a: &Report) -> anyhow::Result<Request> {
 }
 
 /// Builds a list of the page.
-fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>) -> Redesigns<'o> {
+fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>, remarks: Remarks) -> Redesigns<'o> {
     let variants = given.by_ref().collect();
     Redesigns {
         found,
         variants,
         summary: given.summary(),
         interrupted: given.interrupted(),
+        remarks,
     }
 }
 
@@ -138,6 +147,7 @@ fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
         variant: of_one(mechanism, &file, request, "variant"),
         idea: of_one(mechanism, &file, request, "idea"),
         longer: format!("ozols report {file} {longer} -o report.html"),
+        wider: Vec::new(),
     }
 }
 

@@ -226,7 +226,8 @@ impl Outcome {
         counts::counts_by_cost(&self.search, lasting?)
     }
 
-    /// What easing one condition would leave, where nothing was found; of those for which there was time until `cancelled` said to end.
+    /// Returns what easing one condition would leave, where nothing was found; of those for which there was time until `cancelled` said to
+    /// end. Where variants keep the motion in the drawn pose alone, these are all that is said.
     ///
     /// # Errors
     /// Where the geometry has no exact image.
@@ -237,9 +238,13 @@ impl Outcome {
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Vec<(Relaxation, BigUint)>, SearchError> {
-        let unknown = self.numeric.is_some();
-        if unknown || !self.admissible.total.is_zero() || self.search.size().is_one() {
+        let in_pose = &self.admissible.total;
+        let found = !self.listed_counts().total.is_zero();
+        if self.numeric.is_some() || found || self.search.size().is_one() {
             return Ok(Vec::new());
+        }
+        if !in_pose.is_zero() {
+            return Ok(vec![(Relaxation::PoseOnly, in_pose.clone())]);
         }
         let nodes = self.diagrams.as_ref().map_or(0, |d| d.admissible.nodes);
         why_none::relaxations(&self.search, nodes, cancelled)

@@ -4,8 +4,10 @@ use crate::draw::{Drawing, Scene};
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::score::outcome::Outcome;
+use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::search::check::singular_values::Summary;
+use crate::view::terminal::next_commands::NextCommand;
 use maud::{Markup, html};
 
 /// Idle freedoms, and self-stresses, of a state that are shown in space.
@@ -40,6 +42,8 @@ pub struct Redesigns<'a> {
     pub summary: Summary,
     /// Whether the giving was interrupted.
     pub interrupted: bool,
+    /// Why there are none, and which redesigns are symmetric.
+    pub remarks: Remarks,
 }
 
 /// How to get what a page shows from the command line: commands quoted for a shell.
@@ -53,6 +57,8 @@ pub struct Commands {
     pub idea: Vec<(String, String)>,
     /// A longer list with other options at some joints: a command with `{}` for them.
     pub longer: String,
+    /// The commands that find something where this page has nothing.
+    pub wider: Vec<NextCommand>,
 }
 
 impl Commands {

@@ -3,6 +3,7 @@
 
 use super::contents::{Page, SHOWN};
 use crate::view::analysis::Analysis;
+use crate::view::search::nothing_found::hopeless;
 use maud::{Markup, PreEscaped, html};
 
 pub(super) fn stage(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
@@ -87,9 +88,16 @@ fn chosen() -> Markup {
 pub(super) fn redesigns(page: &Page<'_>) -> Markup {
     match &page.redesigns {
         Err(why) => html! { p { "Redesigns were not searched: " (why) } },
-        Ok(r) if r.variants.is_empty() => {
-            html! { p { "There is no variant to show; the verdict at the top says why." } }
-        }
+        Ok(r) if r.variants.is_empty() => html! {
+            p { "There is no variant to show; the verdict at the top says why." }
+            @for why in hopeless(page.mechanism, &r.remarks.hopeless) { p { (why) "." } }
+            dl.commands {
+                @for step in &page.commands.wider {
+                    dt { (step.gives) }
+                    dd { code { (step.command) } }
+                }
+            }
+        },
         Ok(_) => frame(),
     }
 }

@@ -80,6 +80,7 @@ pub fn state(told: &State<'_>) -> Vec<String> {
         ));
     }
     out.push(moves(told));
+    out.extend(told.drive_faults().map(|f| capitalised(&f) + "."));
     let idle = told.idle_motions();
     let more = idle.len().saturating_sub(TOLD);
     if !idle.is_empty() {

@@ -6,6 +6,7 @@ pub(crate) mod counts;
 pub mod csv;
 pub mod data;
 pub mod json;
+pub mod nothing_found;
 pub(crate) mod numeric;
 pub(crate) mod ranking;
 pub(crate) mod second_opinion;

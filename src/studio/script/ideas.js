@@ -27,6 +27,23 @@ function ideaRow(v, n) {
   return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
 }
 
+/** Asks again with the wider request of a number, or as at first. */
+const ask = (wider) => inTurn("ask", { wider, revision: desk.ideas.revision });
+
+/** Why nothing is found, with a button for each request that finds something. */
+function nothingFound({ hopeless, wider }) {
+  const row = ({ flags, gives }, n) => element("li", {}, pointer(element("button", { type: "button", class: "idea" }, element("span", { class: "idea-words" }, `Search with ${flags}`), element("small", {}, gives)), () => {}, () => {}, () => ask(n)));
+  const words = hopeless.map((why) => `${why}.`).join(" ") || (wider.length ? "None with these options." : "None with these options: give the joints more.");
+  return [element("p", { class: "help" }, words), element("ul", { class: "idea-list" }, ...wider.map(row))];
+}
+
+/** What is asked in place of the first request, with a button that ends it. */
+function askedNow(asked) {
+  const back = element("button", { type: "button" }, "Search as at first");
+  back.addEventListener("click", () => ask(null));
+  return element("p", { class: "help" }, `Searched with ${asked}. `, back);
+}
+
 /** Forces over the stroke, where the file states loads. */
 function showForce() {
   const room = byId("force");
@@ -48,11 +65,12 @@ function showIdeas() {
     const p = desk.progress;
     return part(element("p", { class: "help", role: "status" }, p ? `Searching: joint ${p.done} of ${p.of}, ${inThrees(p.nodes)} nodes …` : "Searching …"));
   }
-  if (value.why) return part(element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
+  const asked = value.asked ? [askedNow(value.asked)] : [];
+  if (value.why) return part(...asked, element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
   const { found, notes } = value;
-  if (found.space === "1") return part(element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: list options under [search] in the file."));
-  const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants have σ = 0 and keep the motion of outputs and drives ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
+  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: list options under [search] in the file."));
+  const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants ${value.asked ? "are found" : "have σ = 0 and keep the motion of outputs and drives"} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
   const all = found.variants.map(ideaRow);
-  const none = found.variants.length ? null : element("p", { class: "help" }, (found.relaxations ?? []).length ? `None; easier conditions have some: ${found.relaxations.map((r) => `${r.condition} ${r.to} (${inThrees(r.admissible)})`).join(", ")}.` : "None with these options: give the joints more.");
-  return part(element("p", { class: "counts" }, counts), ...[none].filter(Boolean), element("ol", { class: "idea-list" }, ...all), ...(notes ?? []).map((n) => element("p", { class: "help" }, n)));
+  const none = found.variants.length ? [] : nothingFound(value);
+  return part(...asked, element("p", { class: "counts" }, counts), ...none, element("ol", { class: "idea-list" }, ...all), ...(notes ?? []).map((n) => element("p", { class: "help" }, n)));
 }

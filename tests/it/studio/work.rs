@@ -66,6 +66,36 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
     }
 }
 
+/// Where nothing is found each wider request can be asked, and the first one again.
+#[test]
+fn a_wider_request_is_asked_for_by_its_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = out(&["show", "bennett"]);
+    let few = own.replace(r#""cylindrical", "universal", "spherical""#, r#""slotted""#);
+    assert_ne!(few, own);
+    fs::write(folder.path().join("mine.toml"), few).unwrap();
+    let s = Served::new(folder.path(), &["mine.toml"]);
+    let mut window = s.window();
+    let mut told = window.next("ideas");
+    assert_eq!(told["found"]["variants"].list().len(), 0);
+    let wider = told["wider"].list().clone();
+    assert!(!wider.is_empty());
+    for (n, step) in wider.iter().enumerate() {
+        s.done("ask", &json!({ "wider": n, "revision": told["revision"] }));
+        let found = window.next("ideas");
+        assert_eq!(found["asked"], step["flags"]);
+        assert!(!found["found"]["variants"].list().is_empty(), "{step}");
+        s.done(
+            "ask",
+            &json!({ "wider": null, "revision": found["revision"] }),
+        );
+        told = window.next("ideas");
+        assert!(told["asked"].is_null());
+        assert_eq!(told["wider"], json!(wider));
+    }
+    assert_eq!(s.post("ask", &json!({ "wider": 0, "revision": 1 })).0, 409);
+}
+
 #[test]
 fn a_search_ends_when_another_text_comes() {
     let folder = tempfile::tempdir().unwrap();

@@ -2,19 +2,51 @@
 
 use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::SymmetricBest;
+use crate::score::request::{JointOptions, Request};
 use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::search::question::conditions::SearchError;
+use crate::search::question::kept::Drives;
 use num_bigint::BigUint;
+use num_traits::Zero;
 
 /// Remarks on the variants of a search.
 #[derive(Debug, Default)]
 pub struct Remarks {
     /// What easing one condition would leave.
     pub eased: Vec<(Relaxation, BigUint)>,
+    /// The request with more joint types at some joints that finds something.
+    pub offered: Option<Request>,
     /// What stands in the way of every variant.
     pub hopeless: Hopeless,
     /// The cheapest symmetric redesigns of a symmetric mechanism.
     pub symmetric: Option<SymmetricBest>,
+}
+
+impl Remarks {
+    /// Returns the joint types that another request offers besides those of the one that found nothing.
+    #[must_use]
+    pub fn offers<'r>(&'r self, asked: &Request) -> &'r [JointOptions] {
+        let allow = self.offered.as_ref().map(|r| &r.allow[..]);
+        allow.map_or(&[], |all| &all[asked.allow.len()..])
+    }
+}
+
+/// Returns a request with one condition eased.
+#[must_use]
+pub fn eased(request: &Request, how: Relaxation) -> Request {
+    let mut out = request.clone();
+    match how {
+        Relaxation::Redundant(n) => out.max_redundant = n,
+        Relaxation::External(n) => out.max_external = Some(n),
+        Relaxation::Harmful(n) => out.max_harmful = Some(n),
+        Relaxation::Mobility(n) => out.max_mobility = Some(n),
+        Relaxation::Changes(n) => out.max_changes = Some(n),
+        Relaxation::OutputChange => out.allow_output_change = true,
+        Relaxation::FreeDrives => out.drives = Drives::Free,
+        Relaxation::LooseObject => out.allow_loose_object = true,
+        Relaxation::PoseOnly => out.pose_only = true,
+    }
+    out
 }
 
 impl Outcome {
@@ -23,8 +55,10 @@ impl Outcome {
     /// # Errors
     /// Where the geometry has no exact image.
     pub fn remarks(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Remarks, SearchError> {
+        let none = self.admissible.total.is_zero() && !self.admissible_may_be_more();
         Ok(Remarks {
             eased: self.relaxations(cancelled)?,
+            offered: none.then(|| self.would_help()).flatten(),
             hopeless: self.hopeless()?,
             symmetric: self.symmetric_best(cancelled)?,
         })

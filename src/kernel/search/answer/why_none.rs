@@ -34,6 +34,8 @@ pub enum Relaxation {
     FreeDrives,
     /// Objects that are not held.
     LooseObject,
+    /// The motion in the drawn pose alone.
+    PoseOnly,
 }
 
 /// Why nothing can be found, whatever is chosen.

@@ -173,6 +173,10 @@ pub(crate) fn tail(
             json!({ "condition": condition, "to": to, "admissible": n.to_string() })
         };
         out["relaxations"] = remarks.eased.iter().map(eased).collect();
+        let offers = remarks.offers(&outcome.request).iter();
+        out["offers"] = offers
+            .map(|o| json!({ "joint": o.joint, "options": o.names }))
+            .collect();
         out["least_redundant"] = json!(why.least_redundant);
         out["unchanged"] = json!(named(&why.unchanged));
         out["frozen"] = json!(named(&why.frozen));
@@ -199,7 +203,7 @@ pub(crate) fn end(outcome: &Outcome, variants: &Variants<'_>) -> Value {
 }
 
 /// The flag of a condition that was eased, and the number it is eased to.
-pub(in crate::view) fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
+fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
     match how {
         Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),
         Relaxation::External(n) => ("max-external", Some(i64::from(n))),
@@ -209,5 +213,6 @@ pub(in crate::view) fn condition(how: Relaxation) -> (&'static str, Option<i64>)
         Relaxation::OutputChange => ("allow-output-change", None),
         Relaxation::FreeDrives => ("drives", None),
         Relaxation::LooseObject => ("allow-loose-object", None),
+        Relaxation::PoseOnly => ("pose-only", None),
     }
 }

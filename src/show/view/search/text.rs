@@ -1,17 +1,15 @@
 //! A search for people.
 
-use crate::format::{grouped, plural, plural_of};
+use crate::format::{grouped, plural};
 use crate::robots::is_description;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::score::request::{List, Request};
-use crate::search::answer::why_none::Relaxation;
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
-use crate::view::search::conditions::hopeless;
 use crate::view::search::counts::counts;
-use crate::view::search::data::condition;
+use crate::view::search::nothing_found::{hopeless, wider_commands};
 use crate::view::search::table::{contours, variants};
 use crate::view::search::{counts, ranking, stopped_early, variant, why};
 use crate::view::terminal::layout::fit;
@@ -38,7 +36,8 @@ pub fn write(
     verbose: bool,
 ) -> io::Result<()> {
     write!(out, "{}", counts(outcome, width, verbose))?;
-    let why = hopeless(&outcome.search.mechanism, &remarks.hopeless);
+    let why = hopeless(&outcome.search.mechanism, &remarks.hopeless).into_iter();
+    let why: String = why.map(|line| format!("  {line}\n")).collect();
     write!(out, "{}", fit(&why, width))?;
     let sample = matches!(outcome.request.list, List::Sample(_));
     let what = order(outcome);
@@ -243,72 +242,17 @@ fn flags(outcome: &Outcome) -> String {
     next_commands::flags(&outcome.search.mechanism, &request)
 }
 
-/// What to do next where no variant is given: ask for some, or ease a condition.
+/// Returns what to do next where no variant is given: ask for some, or ease a condition.
 fn next_of_none(outcome: &Outcome, remarks: &Remarks, file: &str) -> Vec<NextCommand> {
-    let flags = &flags(outcome);
-    let asked = outcome.listed_counts().total.is_zero() && !outcome.admissible.total.is_zero();
-    if asked {
-        return vec![NextCommand::new(
-            "search",
-            file,
-            format!("{flags} --pose-only").trim(),
-            "the variants that keep the motion in the drawn pose",
-        )];
+    if outcome.listed_counts().total.is_zero() {
+        return wider_commands(outcome, remarks, "search", file);
     }
-    if !outcome.admissible.total.is_zero() {
-        return vec![NextCommand::new(
-            "search",
-            file,
-            format!("{flags} --top 10").trim(),
-            "the cheapest of them",
-        )];
-    }
-    let steps = remarks.eased.iter().map(|(how, n)| {
-        let (condition, to) = condition(*how);
-        let name = format!("--{condition}");
-        let flag = match (how, to) {
-            (Relaxation::FreeDrives, _) => format!("{name} free"),
-            (_, Some(n)) => format!("{name} {n}"),
-            (_, None) => name.clone(),
-        };
-        let n = plural_of(&grouped(n), "variant");
-        let least = match how {
-            Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
-            Relaxation::FreeDrives => format!("{n}, in which a drive lets go"),
-            Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
-            _ => format!("{n}; no smaller number leaves any"),
-        };
-        // The flag replaces the one that was given.
-        let kept = without(flags, &name);
-        NextCommand::new("search", file, format!("{kept} {flag}").trim(), &least)
-    });
-    let options = match outcome.would_help() {
-        Some(wider) => NextCommand::new(
-            "search",
-            file,
-            &next_commands::flags(&outcome.search.mechanism, &wider),
-            "Offer more options: with these joint types there are variants, and with others there may be",
-        ),
-        None => NextCommand {
-            command: "Offer more options under [search], or at the joints".to_owned(),
-            gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
-        },
-    };
-    steps.chain([options]).collect()
-}
-
-/// Some flags without one of them and its value.
-fn without(flags: &str, flag: &str) -> String {
-    let mut words = flags.split(' ').peekable();
-    let mut kept = Vec::new();
-    while let Some(w) = words.next() {
-        if w == flag {
-            words.next_if(|v| !v.starts_with("--"));
-        } else {
-            kept.push(w);
-        }
-    }
-    kept.join(" ")
+    vec![NextCommand::new(
+        "search",
+        file,
+        format!("{} --top 10", flags(outcome)).trim(),
+        "the cheapest of them",
+    )]
 }
 
 fn opinions(summary: &Summary) -> String {

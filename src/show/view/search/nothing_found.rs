@@ -1,0 +1,100 @@
+//! Where nothing is found: why, in words, and the requests that find something.
+
+use crate::format::{grouped, list, plural_of};
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::score::outcome::Outcome;
+use crate::score::outcome::remarks::{Remarks, eased};
+use crate::score::request::Request;
+use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::view::terminal::next_commands::{NextCommand, flags};
+use itertools::Itertools;
+
+/// Returns why nothing can be found, whatever is chosen, a sentence each; nothing where something may be.
+#[must_use]
+pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
+    let named = |joints: &[JointId]| {
+        let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
+        list(&ids.collect_vec())
+    };
+    let mut out = Vec::new();
+    if let Some(least) = why.least_redundant {
+        out.push(format!(
+            "Every joint at the freest of its options leaves σ = {least}: no choice of them can do"
+        ));
+        let (driven, others): (Vec<_>, Vec<_>) =
+            why.unchanged.iter().partition(|&&j| m.joints[j].drive);
+        for (joints, reason) in [(driven, "driven"), (others, "not offered any option")] {
+            if !joints.is_empty() {
+                let (stays, it) = match joints.len() {
+                    1 => ("stays as it is for it is", "it"),
+                    _ => ("stay as they are for they are", "them"),
+                };
+                out.push(format!(
+                    "{} {stays} {reason}; `options = [...]` of its own would let the search change {it}",
+                    named(&joints)
+                ));
+            }
+        }
+    }
+    if !why.frozen.is_empty() {
+        out.push(format!(
+            "Nothing moves the drive {} in the mechanism as it is: it is locked, and variants that keep the output motion stay so",
+            named(&why.frozen)
+        ));
+    }
+    out
+}
+
+/// Returns the requests that find something where one found nothing, each with what it gives in words.
+#[must_use]
+pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
+    let gives = |how, n: &_| {
+        let n = plural_of(&grouped(n), "variant");
+        match how {
+            Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
+            Relaxation::FreeDrives => format!("{n}, in which a drive lets go"),
+            Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
+            Relaxation::PoseOnly => {
+                "the variants that keep the motion in the drawn pose".to_owned()
+            }
+            _ => format!("{n}; no smaller number leaves any"),
+        }
+    };
+    let steps = remarks.eased.iter();
+    let steps = steps.map(|(how, n)| (eased(&outcome.request, *how), gives(*how, n)));
+    let offered = remarks.offered.iter().map(|wider| {
+        let gives = "Offer more options: with these joint types there are variants, and with others there may be";
+        (wider.clone(), gives.to_owned())
+    });
+    // `--idea` says that ideas are meant.
+    let plain = |request| Request {
+        distinct: false,
+        ..request
+    };
+    let all = steps.chain(offered);
+    all.map(|(request, gives)| (plain(request), gives))
+        .collect()
+}
+
+/// Returns the same as commands, and where no joint types are named a hint at more options.
+#[must_use]
+pub fn wider_commands(
+    outcome: &Outcome,
+    remarks: &Remarks,
+    command: &str,
+    file: &str,
+) -> Vec<NextCommand> {
+    let m = &outcome.search.mechanism;
+    let steps = wider(outcome, remarks)
+        .into_iter()
+        .map(|(request, gives)| NextCommand::new(command, file, &flags(m, &request), &gives));
+    let in_pose = remarks
+        .eased
+        .iter()
+        .any(|(how, _)| *how == Relaxation::PoseOnly);
+    let hint = (!in_pose && remarks.offered.is_none()).then(|| NextCommand {
+        command: "Offer more options under [search], or at the joints".to_owned(),
+        gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
+    });
+    steps.chain(hint).collect()
+}
