@@ -14,7 +14,7 @@ pub mod throughout;
 
 use crate::closure::contour::{Contour, contour_basis};
 use crate::geom::exact::{ExactError, ExactField};
-use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
+use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, SearchSpec, StateId};
 use crate::redundancy::motion::joint_motion;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::question::conditions::{Conditions, OPEN, SearchError, Symmetry};
@@ -132,6 +132,19 @@ fn both_blocks(
         .map(|(of, pinned)| blocks(mechanism, space, &of, pinned, contours))
 }
 
+/// Returns what is asked of a search with each symmetry of these orders that the geometry has, where the file states none.
+fn symmetries<'a>(
+    exact: &'a ExactField,
+    mechanism: &'a Mechanism,
+    state: Option<StateId>,
+    orders: &'a [usize],
+) -> impl Iterator<Item = SearchSpec> + 'a {
+    let unstated = orders.iter().filter(|_| mechanism.search.order() == 1);
+    let found =
+        unstated.filter_map(move |&order| OwnSymmetry::find(exact, mechanism, state, order));
+    found.map(|own| own.of(&mechanism.search))
+}
+
 impl Question {
     /// Makes a question ready; a mechanism given by reference is copied.
     ///
@@ -152,11 +165,14 @@ impl Question {
         }
         followed.enter(&mut mechanism);
         let searched = conditions.state.map(|s| s.state);
-        if conditions.symmetry != Symmetry::All
-            && mechanism.search.order() == 1
-            && let Some(own) = OwnSymmetry::find(&exact, &mechanism, searched)
-        {
-            let search = own.of(&mechanism.search);
+        // What is chosen alike at three legs is more symmetric than what is at two.
+        let orders: &[usize] = match conditions.symmetry {
+            Symmetry::All => &[],
+            Symmetry::SymmetricOnly => &[3, 2],
+            Symmetry::OnePerOrbit => &[2, 3],
+        };
+        let found = symmetries(&exact, &mechanism, searched, orders).next();
+        if let Some(search) = found {
             Arc::make_mut(&mut mechanism).search = search;
         }
         if conditions.symmetry != Symmetry::All {
@@ -216,6 +232,24 @@ impl Question {
             kept,
             present: None,
         })
+    }
+
+    /// Returns the mechanism with each of its symmetries: that of its file, or else those of its geometry, a third of a turn first.
+    #[must_use]
+    pub fn symmetric_mechanisms(&self) -> Vec<Arc<Mechanism>> {
+        if self.mechanism.search.order() > 1 {
+            return vec![self.mechanism.clone()];
+        }
+        let state = self.conditions.state.map(|s| s.state);
+        let found = symmetries(&self.exact, &self.mechanism, state, &[3, 2]);
+        let with = |search| {
+            let mechanism = Mechanism::clone(&self.mechanism);
+            Arc::new(Mechanism {
+                search,
+                ..mechanism
+            })
+        };
+        found.map(with).collect()
     }
 
     /// The bodies that must be held in the searched state.

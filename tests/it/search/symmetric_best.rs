@@ -45,6 +45,58 @@ fn the_gripper_has_a_symmetric_redesign_with_one_constraint_left() {
     assert_eq!(none.unwrap().status.code(), Some(1));
 }
 
+/// Of equal cost ideas that are their own images come first.
+#[test]
+fn ideas_of_a_symmetric_mechanism_say_whether_they_are_symmetric() {
+    let own = |name: &str| -> Vec<(u64, Value)> {
+        let args = format!("search {name} --distinct --top 60 --format json -q");
+        let list = json(&args)["variants"].take();
+        let row = |v: &Value| (milli(&v["cost"]), v["idea"]["symmetric"].clone());
+        list.list().iter().map(row).collect()
+    };
+    let gripper = own("gripper-10");
+    let order = |(cost, symmetric): &(u64, Value)| (*cost, !symmetric.as_bool().unwrap());
+    assert!(gripper.iter().map(order).is_sorted());
+    assert!(gripper.iter().any(|(_, s)| *s == true) && gripper.iter().any(|(_, s)| *s == false));
+    assert!(own("watt-six-bar").iter().all(|(_, s)| s.is_null()));
+}
+
+fn milli(cost: &Value) -> u64 {
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a small cost"
+    )]
+    let milli = (1000.0 * cost.real()) as u64;
+    milli
+}
+
+/// A robot with three legs alike is turned into itself by a third of a turn, and its symmetric redesigns change all three alike.
+#[test]
+fn thirds_of_a_turn_are_found() {
+    for name in ["delta", "3-upu", "3-rps", "y-star"] {
+        let v = json(&format!("search {name} --format json -q --check none"));
+        let best = v["symmetric"].list();
+        assert!(!best.is_empty(), "{name}");
+        for one in best.iter().filter(|v| v["by"] == "third of a turn") {
+            let mut alike: BTreeMap<&str, usize> = BTreeMap::new();
+            let changes = one["changes"].list();
+            changes
+                .iter()
+                .for_each(|c| *alike.entry(c["to"].word()).or_default() += 1);
+            assert!(alike.values().all(|n| n % 3 == 0), "{name}: {one}");
+        }
+        let args = format!("search {name} --symmetric --count --format json -q");
+        let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();
+        let space: f64 = found["space"].word().parse().unwrap();
+        let all: f64 = v["space"].word().parse().unwrap();
+        assert!(
+            (space.powi(3) - all).abs() <= 1e-9 * all,
+            "{name}: {space} {all}"
+        );
+    }
+}
+
 #[test]
 fn mechanisms_without_symmetry_have_no_symmetric_redesigns() {
     for more in [

@@ -30,8 +30,8 @@ impl Request {
         };
         // Of a variant and its images one is kept.
         let images = match self.symmetry {
-            // Images that the file does not name are looked for later, and are pairs.
-            Symmetry::OnePerOrbit => mechanism.search.order().max(2),
+            // Images that the file does not name are looked for later, and are two or three.
+            Symmetry::OnePerOrbit => mechanism.search.order().max(3),
             Symmetry::All | Symmetry::SymmetricOnly => 1,
         };
         Ok(looked.saturating_mul(images))

@@ -17,13 +17,22 @@ const NODES: usize = 20_000;
 /// Variants searched for one that leaves exactly the wanted number of redundant constraints.
 const LOOKED_AT: usize = 10_000;
 
+/// The cheapest symmetric redesign that leaves so many redundant constraints.
+#[derive(Debug)]
+pub struct SymmetricRedesign {
+    /// How many.
+    pub left: u32,
+    /// The search for such variants, with joints that are images of each other as one variable.
+    pub search: Search,
+    /// The variant.
+    pub variant: Assignment,
+}
+
 /// The cheapest symmetric redesigns.
 #[derive(Debug)]
 pub struct SymmetricBest {
-    /// The search for the symmetric variants, with joints that are images of each other as one variable.
-    pub search: Search,
     /// For 0, 1 and 2 redundant constraints left the cheapest, where there is one and it could be found.
-    pub best: Vec<(u32, Assignment)>,
+    pub best: Vec<SymmetricRedesign>,
     /// Why no symmetric redesign leaves no redundant constraint and adds no idle motion; `None` where one does, or the reason is another.
     pub odd: Option<OddFreedoms>,
 }
@@ -38,13 +47,14 @@ pub struct OddFreedoms {
 }
 
 impl Outcome {
-    /// Returns the cheapest symmetric redesigns, where the mechanism is symmetric and all variants were asked for in the free state.
+    /// Returns the cheapest symmetric redesigns, where the mechanism is symmetric and all variants were asked for in the free state: those
+    /// by a third of a turn, or where there are none those by a mirror or half turn.
     ///
     /// # Errors
     /// Where a coordinate has no value in the field.
     ///
     /// # Complexity
-    /// Three searches with joints that are images of each other as one.
+    /// Three searches of each symmetry with joints that are images of each other as one.
     pub fn symmetric_best(
         &self,
         should_cancel: &(dyn Fn() -> bool + Sync),
@@ -60,9 +70,10 @@ impl Outcome {
         if !plain {
             return Ok(None);
         }
+        let symmetric = self.search.symmetric_mechanisms();
         let mut best = Vec::new();
-        let mut whole: Option<Search> = None;
-        for left in (0..=LEFT).rev() {
+        let mut odd = None;
+        for left in 0..=LEFT {
             let conditions = Conditions {
                 symmetry: Symmetry::SymmetricOnly,
                 max_redundant: left,
@@ -72,27 +83,30 @@ impl Outcome {
                 estimate: None,
                 ..asked.clone()
             };
-            // The symmetry that the first search finds is entered in its mechanism.
-            let last = whole.as_ref().unwrap_or(&self.search);
-            let (field, mechanism) = (last.exact.clone(), last.mechanism.clone());
-            let search = match Search::new(field, mechanism, conditions) {
-                Err(SearchError::Mirror(_)) => return Ok(None),
-                other => other?,
-            };
-            let diagrams = search.build(should_cancel, &mut |_| {});
-            let just = |v: &Assignment| v.key.internal() == left;
-            if diagrams.admissible.stop == Stop::Exhausted {
-                let found = search.cheapest(&diagrams, LOOKED_AT).find(just);
-                best.extend(found.map(|v| (left, v)));
+            for mechanism in &symmetric {
+                let exact = self.search.exact.clone();
+                let search = match Search::new(exact, mechanism.clone(), conditions.clone()) {
+                    Err(SearchError::Mirror(_)) => return Ok(None),
+                    other => other?,
+                };
+                if left == 0 && symmetric.len() == 1 {
+                    odd = odd_freedoms(&search)?;
+                }
+                let diagrams = search.build(should_cancel, &mut |_| {});
+                let just = |v: &Assignment| v.key.internal() == left;
+                let found = (diagrams.admissible.stop == Stop::Exhausted)
+                    .then(|| search.cheapest(&diagrams, LOOKED_AT).find(just));
+                if let Some(variant) = found.flatten() {
+                    best.push(SymmetricRedesign {
+                        left,
+                        search,
+                        variant,
+                    });
+                    break;
+                }
             }
-            whole = Some(search);
         }
-        best.reverse();
-        let Some(search) = whole else {
-            return Ok(None);
-        };
-        let odd = odd_freedoms(&search)?;
-        Ok(Some(SymmetricBest { search, best, odd }))
+        Ok((!symmetric.is_empty()).then_some(SymmetricBest { best, odd }))
     }
 }
 

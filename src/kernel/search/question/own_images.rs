@@ -1,5 +1,5 @@
-//! Which joint each becomes in a mirror, or by half a turn, that carries the mechanism over to itself: as the file says, or as
-//! its geometry has it where the file says nothing.
+//! Which joint each becomes in a mirror, or by half or a third of a turn, that carries the mechanism over to itself: as the file says,
+//! or as its geometry has it where the file says nothing.
 
 use crate::closure::mirror::Plane;
 use crate::closure::symmetry_image::{Carrier, Spot};
@@ -14,7 +14,7 @@ use itertools::Itertools;
 const TRIED: usize = 12;
 /// Joints of a mechanism that is looked at, at most.
 const JOINTS: usize = 60;
-/// Joints of one whose turns are looked for, at most: a pair of joints suggests one mirror and many turns.
+/// Joints of one whose half turns are looked for, at most: a pair of joints suggests one mirror and many half turns.
 const TURNED: usize = 16;
 /// Joints one of which a symmetry moves: those that it leaves in place are on its axis or in its plane.
 const FIRST: usize = 6;
@@ -23,7 +23,7 @@ const STEPS: usize = 1_000;
 /// How far off images may be before they are looked at exactly, in the mechanism's size.
 const NEAR: f64 = 1e-6;
 
-/// Returns the image of each joint; `None` where there is no symmetry but that of the whole lying still, or one of another order.
+/// Returns the image of each joint; `None` where there is no symmetry but that of the whole lying still.
 #[must_use]
 pub(crate) fn own_images(
     exact: &ExactField,
@@ -31,20 +31,22 @@ pub(crate) fn own_images(
     state: Option<StateId>,
 ) -> Option<Vec<JointId>> {
     let found = match mechanism.search.order() {
-        1 => OwnSymmetry::find(exact, mechanism, state)?.of(&mechanism.search),
-        2 => {
+        1 => {
+            let find = |order| OwnSymmetry::find(exact, mechanism, state, order);
+            [2, 3].into_iter().find_map(find)?.of(&mechanism.search)
+        }
+        _ => {
             check(exact, mechanism, state).ok()?;
             mechanism.search.clone()
         }
-        _ => return None,
     };
     Some(mechanism.joint_ids().map(|j| found.image(j)).collect())
 }
 
-/// The joints that a mirror, or half a turn, carries to each other.
+/// The joints that a mirror, or part of a turn, carries to each other.
 #[derive(Debug, PartialEq)]
 pub(in crate::search) struct OwnSymmetry {
-    pairs: Vec<(JointId, JointId)>,
+    groups: Vec<Vec<JointId>>,
     mirrored: bool,
 }
 
@@ -53,21 +55,23 @@ impl OwnSymmetry {
     pub(in crate::search) fn of(&self, search: &SearchSpec) -> SearchSpec {
         let mut out = search.clone();
         if self.mirrored {
-            out.mirror.clone_from(&self.pairs);
+            out.mirror = self.groups.iter().map(|g| (g[0], g[1])).collect();
         } else {
-            out.turn = self.pairs.iter().map(|&(a, b)| vec![a, b]).collect();
+            out.turn.clone_from(&self.groups);
         }
         out
     }
 
-    /// Returns the first mirror or half turn that is proven to carry the mechanism over to itself.
+    /// Returns the first mirror or half turn, or third of a turn where the order is 3, that is proven to carry the mechanism over to itself.
     ///
     /// # Complexity
-    /// O(joints²) candidates, each for some distances, and a dozen exact proofs at most.
+    /// O(joints^order) groups that are compared, and those candidates that they suggest, each for O(joints²) distances; a dozen exact
+    /// proofs at most.
     pub(in crate::search) fn find(
         exact: &ExactField,
         mechanism: &Mechanism,
         state: Option<StateId>,
+        order: usize,
     ) -> Option<OwnSymmetry> {
         if mechanism.joints.len() > JOINTS {
             return None;
@@ -80,16 +84,14 @@ impl OwnSymmetry {
         let compared = ComparedJoints::new(mechanism);
         let directions = FrameDirections::of(mechanism);
         let mut tried: Vec<OwnSymmetry> = Vec::new();
-        let all = mechanism.joint_ids().tuple_combinations();
-        for (a, b) in all.take_while(|(a, _): &(JointId, _)| a.index() < FIRST) {
-            if !compared.are_alike(a, b) || compared.apart(a, b) < compared.near {
-                continue;
-            }
-            for (carrier, mirrored) in suggested(mechanism, &compared.spots, &directions, [a, b]) {
-                let Some(pairs) = compared.pairs(mechanism, &*carrier) else {
+        let groups = mechanism.joint_ids().combinations(order);
+        let groups = groups.take_while(|g| g[0].index() < FIRST);
+        for group in groups.filter(|g| compared.may_be_images(g)) {
+            for (carrier, mirrored) in suggested(mechanism, &compared.spots, &directions, &group) {
+                let Some(groups) = compared.groups(mechanism, &*carrier, order) else {
                     continue;
                 };
-                let one = OwnSymmetry { pairs, mirrored };
+                let one = OwnSymmetry { groups, mirrored };
                 if tried.contains(&one) {
                     continue;
                 }
@@ -106,18 +108,23 @@ impl OwnSymmetry {
     }
 }
 
-/// The mirrors and turns that may carry two joints to each other, and whether it is a mirror.
+/// The mirrors and turns that may carry two or three joints to each other, and whether it is a mirror.
 fn suggested(
     mechanism: &Mechanism,
     spots: &[Spot],
     directions: &FrameDirections,
-    [a, b]: [JointId; 2],
+    group: &[JointId],
 ) -> impl Iterator<Item = (Box<dyn Carrier>, bool)> {
-    let planes = Plane::among(mechanism, spots, &[(a, b)]).into_iter();
-    let planes = planes.map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
-    let turns = match mechanism.joints.len() {
-        ..=TURNED => Turn::of_groups(mechanism, directions, &[vec![a, b]]),
+    let planes = match *group {
+        [a, b] => Plane::among(mechanism, spots, &[(a, b)]),
         _ => Vec::new(),
+    };
+    let planes = planes.into_iter();
+    let planes = planes.map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
+    let turns = if group.len() == 3 || mechanism.joints.len() <= TURNED {
+        Turn::of_groups(mechanism, directions, &[group.to_vec()])
+    } else {
+        Vec::new()
     };
     let turns = turns.into_iter();
     planes.chain(turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false)))
@@ -162,13 +169,25 @@ impl ComparedJoints {
         length([0, 1, 2].map(|i| p[i] - q[i]))
     }
 
-    /// Returns the joints that become each other, where all joints become joints like them between the images of their links, and
-    /// back. Of joints at one place, such as two rods on one pin, the links tell which becomes which.
-    fn pairs(
+    /// Returns whether two joints may be each other's images, or three one after another: they are alike, and equally far from each
+    /// other.
+    fn may_be_images(&self, group: &[JointId]) -> bool {
+        let sides = || group.iter().zip(group.iter().cycle().skip(1));
+        let far = || sides().map(|(&a, &b)| self.apart(a, b));
+        let (least, most) = (far().fold(f64::MAX, f64::min), far().fold(0.0, f64::max));
+        sides().all(|(&a, &b)| self.are_alike(a, b))
+            && least >= self.near
+            && most - least < self.near
+    }
+
+    /// Returns the joints that become each other, where all joints become joints like them between the images of their links, and after
+    /// `order` times are back. Of joints at one place, such as two rods on one pin, the links tell which becomes which.
+    fn groups(
         &self,
         mechanism: &Mechanism,
         carrier: &dyn Carrier,
-    ) -> Option<Vec<(JointId, JointId)>> {
+        order: usize,
+    ) -> Option<Vec<Vec<JointId>>> {
         let close = |j: JointId, k: JointId| {
             let [from, to] = [j, k].map(|j| self.spots[j.index()]);
             let miss = carrier.miss(from, &mechanism.joints[j].joint_type, to);
@@ -179,28 +198,40 @@ impl ComparedJoints {
             let near = all.filter(|&k| self.are_alike(j, k) && close(j, k));
             near.collect_vec()
         };
+        let frame = mechanism.frame().index();
         let mut images = PartialImages {
+            order,
             joints: vec![None; mechanism.joints.len()],
             links: vec![None; mechanism.links.len()],
         };
-        images.links[mechanism.frame().index()] = Some(mechanism.frame());
+        images.links[frame] = Some(frame);
         let near = mechanism.joint_ids().map(near).collect_vec();
         let mut steps = STEPS;
-        let images = images.complete(mechanism, &near, &mut steps)?.joints;
-        let images = mechanism.joint_ids().zip(images);
-        let pairs = images.filter_map(|(j, k)| k.filter(|k| j < *k).map(|k| (j, k)));
-        Some(pairs.collect_vec()).filter(|p| !p.is_empty())
+        let images = images.complete(mechanism, &near, &mut steps)?;
+        let groups = mechanism.joint_ids().map(|j| images.round(j));
+        let groups = groups.filter(|g| g.len() > 1 && g.iter().min() == g.first());
+        Some(groups.collect_vec()).filter(|all| !all.is_empty())
     }
 }
 
-/// What some joints and links become; what one becomes becomes it.
+/// What some joints and links become, by number.
 #[derive(Clone)]
 struct PartialImages {
-    joints: Vec<Option<JointId>>,
-    links: Vec<Option<LinkId>>,
+    /// After how many times all is back: what one of two becomes becomes it.
+    order: usize,
+    joints: Vec<Option<usize>>,
+    links: Vec<Option<usize>>,
 }
 
 impl PartialImages {
+    /// Returns a joint and what it becomes, one after another until it is back, or for as many times as the order.
+    fn round(&self, j: JointId) -> Vec<JointId> {
+        let next = |j: &JointId| self.joints[j.index()].map(JointId::new);
+        let all = std::iter::successors(Some(j), next).take(self.order);
+        let others = all.skip(1).take_while(|&k| k != j);
+        std::iter::once(j).chain(others).collect()
+    }
+
     /// Returns these images with one of each joint that is left, from those near its place; none where links do not fit, or where
     /// the steps run out.
     ///
@@ -221,7 +252,14 @@ impl PartialImages {
             near.flat_map(|&k| self.with(mechanism, j, k)).collect_vec()
         });
         match choices.min_by_key(Vec::len) {
-            None => Some(self),
+            None => {
+                let is_back = |j: JointId| {
+                    let round = self.round(j);
+                    let last = round.last().and_then(|l| self.joints[l.index()]);
+                    [1, self.order].contains(&round.len()) && last == Some(j.index())
+                };
+                mechanism.joint_ids().all(is_back).then_some(self)
+            }
             Some(choices) => choices
                 .into_iter()
                 .find_map(|images| images.complete(mechanism, near, steps)),
@@ -230,27 +268,30 @@ impl PartialImages {
 
     /// Returns these images with one joint becoming another, its links in either order.
     fn with(&self, mechanism: &Mechanism, j: JointId, k: JointId) -> Vec<PartialImages> {
-        if self.joints[k.index()].is_some() {
-            return Vec::new();
-        }
         let ([u, v], [x, y]) = (mechanism.joints[j].links, mechanism.joints[k].links);
         let orders = [[(u, x), (v, y)], [(u, y), (v, x)]].into_iter().unique();
+        let role = |l: LinkId| mechanism.links[l].role;
         let fitting = orders.filter_map(|links| {
             let mut out = self.clone();
-            (out.joints[j.index()], out.joints[k.index()]) = (Some(k), Some(j));
-            links
-                .into_iter()
-                .all(|(a, b)| out.join(mechanism, a, b))
-                .then_some(out)
+            let fits = becomes(&mut out.joints, [j.index(), k.index()], self.order)
+                && links.into_iter().all(|(a, b)| {
+                    role(a) == role(b)
+                        && becomes(&mut out.links, [a.index(), b.index()], self.order)
+                });
+            fits.then_some(out)
         });
         fitting.collect()
     }
+}
 
-    /// Makes two links each other's images, and returns whether they can be.
-    fn join(&mut self, mechanism: &Mechanism, a: LinkId, b: LinkId) -> bool {
-        let is = |of: LinkId, image: LinkId| self.links[of.index()].is_none_or(|l| l == image);
-        let fits = is(a, b) && is(b, a) && mechanism.links[a].role == mechanism.links[b].role;
-        (self.links[a.index()], self.links[b.index()]) = (Some(b), Some(a));
+/// Makes one thing become another, and the other it where the order is 2, and returns whether they can.
+fn becomes(images: &mut [Option<usize>], [a, b]: [usize; 2], order: usize) -> bool {
+    let mut one = |a: usize, b: usize| {
+        let others = images.iter().enumerate().filter(|(i, _)| *i != a);
+        let is_free = others.into_iter().all(|(_, to)| *to != Some(b));
+        let fits = is_free && images[a].is_none_or(|i| i == b);
+        images[a] = Some(b);
         fits
-    }
+    };
+    one(a, b) && (order > 2 || one(b, a))
 }

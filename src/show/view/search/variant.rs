@@ -4,10 +4,10 @@ use crate::format::cost;
 use crate::model::mechanism::Mechanism;
 use crate::redundancy::contour_shares::ContourShare;
 use crate::score::outcome::Outcome;
-use crate::score::outcome::symmetric::SymmetricBest;
+use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
 use crate::score::outcome::variant::{Change, Variant, changes, in_words};
+use crate::search::Search;
 use crate::search::answer::freedom_patterns;
-use crate::search::answer::k_best::Assignment;
 use crate::search::check::other_poses::{Figures, OverStroke};
 use crate::view::search::ranking;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -37,6 +37,7 @@ impl Serialize for VariantData<'_, '_> {
         let idea = v.idea().map(|i| {
             json!({
                 "variants": i.variants.to_string(),
+                "symmetric": i.symmetric,
                 "exact": outcome.is_exact(),
                 "adds": freedom_patterns::in_words(mechanism, &i.added),
                 "why": self.why,
@@ -105,16 +106,22 @@ fn changed(m: &Mechanism, changes: Vec<Change>) -> Vec<ChangeData<'_>> {
 
 /// Returns a line for each number of redundant constraints left, under a heading.
 pub(in crate::view) fn symmetric_text(found: &SymmetricBest) -> String {
-    let SymmetricBest { search, best, odd } = found;
+    let SymmetricBest { best, odd } = found;
     let mut out = String::from("\n  the cheapest symmetric redesign for each σ left:\n");
     // Writing to a string cannot fail.
-    for (left, v) in best {
+    for one in best {
+        let SymmetricRedesign {
+            left,
+            search,
+            variant: v,
+        } = one;
         let price = cost(search.steps.milli(v.key.cost()));
         let (w, words) = (
             search.mobility(v.key),
             in_words(search, &changes(search, v)),
         );
-        let _ = writeln!(out, "    σ = {left}: cost {price}, W = {w}, {words}");
+        let by = symmetry(search);
+        let _ = writeln!(out, "    σ = {left}: cost {price}, W = {w}, {words} ({by})");
     }
     if best.is_empty() {
         out += "    none with the options offered and at most 2 redundant constraints\n";
@@ -129,12 +136,27 @@ pub(in crate::view) fn symmetric_text(found: &SymmetricBest) -> String {
     out
 }
 
+/// Returns what carries a mechanism over to itself.
+fn symmetry(search: &Search) -> &'static str {
+    let spec = &search.mechanism.search;
+    match (spec.mirror.is_empty(), spec.order()) {
+        (false, _) => "mirror",
+        (true, 3) => "third of a turn",
+        _ => "half turn",
+    }
+}
+
 /// Returns the cheapest symmetric redesigns as data.
 pub(in crate::view) fn symmetric_data(found: &SymmetricBest) -> Value {
-    let search = &found.search;
-    let one = |(left, v): &(u32, Assignment)| {
+    let one = |one: &SymmetricRedesign| {
+        let SymmetricRedesign {
+            left,
+            search,
+            variant: v,
+        } = one;
         json!({
             "redundant": left,
+            "by": symmetry(search),
             "cost": price(search.steps.milli(v.key.cost())),
             "mobility": search.mobility(v.key),
             "changes": changed(&search.mechanism, changes(search, v)),
