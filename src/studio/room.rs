@@ -33,7 +33,7 @@ pub(super) struct Room {
     told: Mutex<Told>,
     /// The last search that was finished.
     found: Mutex<Option<Arc<Found>>>,
-    /// What is asked at first, and what is asked in its place.
+    /// The first request, and the wider one that replaces it.
     request: Request,
     wider: Mutex<Option<Request>>,
     ended: AtomicBool,
@@ -46,7 +46,7 @@ pub(super) struct Room {
 pub(super) struct Found {
     /// The text it is of.
     pub(super) revision: u64,
-    /// What it found.
+    /// Its outcome.
     pub(super) outcome: Outcome,
     /// The requests that find something, where it found nothing.
     pub(super) wider: Vec<Request>,
@@ -170,14 +170,14 @@ impl Room {
         found.filter(|f| f.revision == revision)
     }
 
-    /// Returns what is asked of a search, and whether it is wider than at first.
+    /// Returns the request of a search, and whether it is wider than the first one.
     pub(super) fn request(&self) -> (Request, bool) {
         let wider = locked(&self.wider).clone();
         let is_wider = wider.is_some();
         (wider.unwrap_or_else(|| self.request.clone()), is_wider)
     }
 
-    /// Asks with a wider request from now on, or as at first, and returns what is told of the desk.
+    /// Searches with a wider request from now on, or with the first one, and returns the state of the desk.
     pub(super) fn ask(&self, wider: Option<Request>) -> Result<Value, Refused> {
         *locked(&self.wider) = wider;
         self.at_desk(|desk| {

@@ -41,7 +41,7 @@ struct Idea {
     revision: u64,
 }
 
-/// The number of a wider request, from 0; none where all is asked as at first.
+/// The number of a wider request, from 0; `None` for the first request.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Wider {

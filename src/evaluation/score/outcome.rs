@@ -226,8 +226,8 @@ impl Outcome {
         counts::counts_by_cost(&self.search, lasting?)
     }
 
-    /// Returns what easing one condition would leave, where nothing was found; of those for which there was time until `cancelled` said to
-    /// end. Where variants keep the motion in the drawn pose alone, these are all that is said.
+    /// Returns what easing one condition would leave if nothing was found, for the conditions that were reached until `cancelled` said to
+    /// end. If some variants keep the motion in the drawn pose only, returns these.
     ///
     /// # Errors
     /// Where the geometry has no exact image.

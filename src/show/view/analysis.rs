@@ -208,7 +208,7 @@ impl State<'_> {
                 "joint": self.joint(w.joint),
                 "moments": axes(w.moments),
                 "forces": axes(w.forces),
-                "text": self.carried(t, w),
+                "text": self.wrench_words(t, w),
                 // Its part of Σ |f|² + |m|²/ℓ² over the joints; nothing where that was not computed.
                 "share": w.borne.as_ref().map(|b| b.share()),
             })

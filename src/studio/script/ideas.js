@@ -27,17 +27,17 @@ function ideaRow(v, n) {
   return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
 }
 
-/** Asks again with the wider request of a number, or as at first. */
+/** Searches again with the wider request of a number, or with the first one. */
 const ask = (wider) => inTurn("ask", { wider, revision: desk.ideas.revision });
 
-/** Why nothing is found, with a button for each request that finds something. */
+/** The reasons why nothing is found, with a button for each request that finds something. */
 function nothingFound({ hopeless, wider }) {
   const row = ({ flags, gives }, n) => element("li", {}, pointer(element("button", { type: "button", class: "idea" }, element("span", { class: "idea-words" }, `Search with ${flags}`), element("small", {}, gives)), () => {}, () => {}, () => ask(n)));
   const words = hopeless.map((why) => `${why}.`).join(" ") || (wider.length ? "None with these options." : "None with these options: give the joints more.");
   return [element("p", { class: "help" }, words), element("ul", { class: "idea-list" }, ...wider.map(row))];
 }
 
-/** What is asked in place of the first request, with a button that ends it. */
+/** The wider request, with a button that goes back to the first one. */
 function askedNow(asked) {
   const back = element("button", { type: "button" }, "Search as at first");
   back.addEventListener("click", () => ask(null));

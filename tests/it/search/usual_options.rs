@@ -182,5 +182,5 @@ fn every_subset_of_freedoms_is_a_choice() {
         "wire-flexure-x",
     ];
     assert_eq!(parts, with_turn);
-    assert!(at_one.contains("rz+tx") && !at_one.contains("blade-flexure-z"));
+    assert!(at_one.contains("rz+ty") && !at_one.contains("blade-flexure-z"));
 }

@@ -47,8 +47,8 @@ pub struct OddFreedoms {
 }
 
 impl Outcome {
-    /// Returns the cheapest symmetric redesigns, where the mechanism is symmetric and all variants were asked for in the free state: those
-    /// by a third of a turn, or where there are none those by a mirror or half turn.
+    /// Returns the cheapest symmetric redesigns if the mechanism is symmetric and all variants were asked for in the free state. Each is
+    /// symmetric by a third of a turn, or if there is none by a mirror or half turn.
     ///
     /// # Errors
     /// Where a coordinate has no value in the field.

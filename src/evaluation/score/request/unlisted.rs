@@ -172,8 +172,8 @@ fn is_changeable(joint: &Joint) -> bool {
     joint.is_in(StateId::FREE) && !joint.drive && joint.joint_type != JointType::Fixed
 }
 
-/// Returns the name of a set of freedoms that is no type: the part that has it with the axis of the joint's frame that it lies along,
-/// as `ball-in-v-groove-x`, or else its freedoms, as `rz+tx`. The axis of a blade flexure is the normal of the blade.
+/// Returns the name of a set of freedoms that is not a type: the part that has it with its axis in the joint's frame, as
+/// `ball-in-v-groove-x`, or else its freedoms, as `rz+ty`. The axis of a blade flexure is the normal of the blade.
 ///
 /// # Sources
 /// Blanding, "Exact Constraint: Machine Design Using Kinematic Principles", 1999: wire and sheet flexures.

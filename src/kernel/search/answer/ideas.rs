@@ -59,7 +59,8 @@ pub(in crate::search) fn idea_variants<'d>(
 ///
 /// # Complexity
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
-/// pattern; then for each idea two passes over the part of the diagram that it uses.
+/// pattern; then a bounded search for the shown variant of each idea in the groups of the first `top`, and for each of these two passes
+/// over the part of the diagram that it uses.
 pub(crate) fn ideas(question: &Question, diagrams: &Diagrams, top: usize) -> Vec<Idea> {
     let variants = idea_variants(question, diagrams);
     ideas_in_steps(question, &IdeaBasis::of(question), &variants, top, &mut 0)

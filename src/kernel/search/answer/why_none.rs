@@ -34,7 +34,7 @@ pub enum Relaxation {
     FreeDrives,
     /// Objects that are not held.
     LooseObject,
-    /// The motion in the drawn pose alone.
+    /// The motion in the drawn pose only.
     PoseOnly,
 }
 

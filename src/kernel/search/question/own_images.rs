@@ -14,7 +14,7 @@ use itertools::Itertools;
 const TRIED: usize = 12;
 /// Joints of a mechanism that is looked at, at most.
 const JOINTS: usize = 60;
-/// Joints of one whose half turns are looked for, at most: a pair of joints suggests one mirror and many half turns.
+/// Most joints of one whose half turns are looked for: a pair of joints suggests one mirror and many half turns.
 const TURNED: usize = 16;
 /// Joints one of which a symmetry moves: those that it leaves in place are on its axis or in its plane.
 const FIRST: usize = 6;
@@ -23,7 +23,7 @@ const STEPS: usize = 1_000;
 /// How far off images may be before they are looked at exactly, in the mechanism's size.
 const NEAR: f64 = 1e-6;
 
-/// Returns the image of each joint; `None` where there is no symmetry but that of the whole lying still.
+/// Returns the image of each joint; `None` if the mechanism has no symmetry.
 #[must_use]
 pub(crate) fn own_images(
     exact: &ExactField,
@@ -62,11 +62,11 @@ impl OwnSymmetry {
         out
     }
 
-    /// Returns the first mirror or half turn, or third of a turn where the order is 3, that is proven to carry the mechanism over to itself.
+    /// Returns the first symmetry that is proven: a mirror or half turn if the order is 2, a third of a turn if it is 3.
     ///
     /// # Complexity
-    /// O(joints^order) groups that are compared, and those candidates that they suggest, each for O(joints²) distances; a dozen exact
-    /// proofs at most.
+    /// O(joints^order) groups that are compared, O(joints²) distances for each symmetry that they suggest, and at most a dozen exact
+    /// proofs.
     pub(in crate::search) fn find(
         exact: &ExactField,
         mechanism: &Mechanism,
@@ -108,7 +108,7 @@ impl OwnSymmetry {
     }
 }
 
-/// The mirrors and turns that may carry two or three joints to each other, and whether it is a mirror.
+/// Returns the mirrors and turns that may carry two or three joints to each other, and whether it is a mirror.
 fn suggested(
     mechanism: &Mechanism,
     spots: &[Spot],
@@ -169,8 +169,7 @@ impl ComparedJoints {
         length([0, 1, 2].map(|i| p[i] - q[i]))
     }
 
-    /// Returns whether two joints may be each other's images, or three one after another: they are alike, and equally far from each
-    /// other.
+    /// Returns whether two or three joints may be each other's images: they are of one kind, and equally far from each other.
     fn may_be_images(&self, group: &[JointId]) -> bool {
         let sides = || group.iter().zip(group.iter().cycle().skip(1));
         let far = || sides().map(|(&a, &b)| self.apart(a, b));
@@ -180,8 +179,8 @@ impl ComparedJoints {
             && most - least < self.near
     }
 
-    /// Returns the joints that become each other, where all joints become joints like them between the images of their links, and after
-    /// `order` times are back. Of joints at one place, such as two rods on one pin, the links tell which becomes which.
+    /// Returns the joints that become each other if each joint becomes one of its kind between the images of its links, and is back after
+    /// `order` times. Links decide which becomes which of joints at one place, such as two rods on one pin.
     fn groups(
         &self,
         mechanism: &Mechanism,

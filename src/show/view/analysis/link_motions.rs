@@ -1,4 +1,4 @@
-//! What links can do, and what joints carry, in words and as data.
+//! The motions of links and the wrenches of joints, in words and as data.
 
 use crate::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
 use crate::model::mechanism::{JointId, Mechanism};
@@ -86,9 +86,9 @@ fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
     })
 }
 
-/// Returns a wrench that a joint carries in words, as motions are named: "moment about x", "force along z", the line of which goes
-/// through the joint's point if no other is named, or "wrench along z through (0, 1, 0) m, pitch 2 m". The moment is in units of force
-/// times `size`, a length in the file's unit.
+/// Returns the wrench of a joint in words, as motions are named: "moment about x", "force along z through (0, 1, 0) m", or "wrench along
+/// z, pitch 2 m". A line without a place goes through the joint's point. The moment is in units of force times `size`, a length in the
+/// file's unit.
 #[must_use]
 pub(super) fn wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) -> String {
     let Borne { force, moment } = *borne;

@@ -330,12 +330,12 @@ impl State<'_> {
         let felt = felt.filter(|w| !t.external || joints[w.joint].states.is_some());
         let count = |w: &&JointWrench| w.moments.iter().chain(&w.forces).filter(|x| **x).count();
         let w = felt.min_by_key(count)?;
-        Some((self.joint(w.joint), self.carried(t, w)))
+        Some((self.joint(w.joint), self.wrench_words(t, w)))
     }
 
     /// Returns what a joint carries of a self-stress: "force along z through (0, 1, 0) m", or where numbers are not known "moments about x
     /// and y, force along z".
-    pub(super) fn carried(&self, t: &SelfStress, w: &JointWrench) -> String {
+    pub(super) fn wrench_words(&self, t: &SelfStress, w: &JointWrench) -> String {
         if let Some(borne) = &w.borne {
             return link_motions::wrench(self.mechanism, w.joint, borne, t.size);
         }

@@ -1,4 +1,4 @@
-//! Where nothing is found: why, in words, and the requests that find something.
+//! If nothing is found: the reasons in words, and the requests that find something.
 
 use crate::format::{grouped, list, plural_of};
 use crate::model::mechanism::{JointId, Mechanism};
@@ -9,7 +9,7 @@ use crate::search::answer::why_none::{Hopeless, Relaxation};
 use crate::view::terminal::next_commands::{NextCommand, flags};
 use itertools::Itertools;
 
-/// Returns why nothing can be found, whatever is chosen, a sentence each; nothing where something may be.
+/// Returns why no variant can be found, a sentence for each reason; empty if some may be.
 #[must_use]
 pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     let named = |joints: &[JointId]| {
@@ -45,7 +45,7 @@ pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     out
 }
 
-/// Returns the requests that find something where one found nothing, each with what it gives in words.
+/// Returns the requests that find something if one found nothing, each with its result in words.
 #[must_use]
 pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
     let gives = |how, n: &_| {
@@ -76,7 +76,7 @@ pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
         .collect()
 }
 
-/// Returns the same as commands, and where no joint types are named a hint at more options.
+/// Returns the same as commands, with a hint at more options if no joint types are named.
 #[must_use]
 pub fn wider_commands(
     outcome: &Outcome,
