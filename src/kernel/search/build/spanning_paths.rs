@@ -301,7 +301,7 @@ mod tests {
             let tree = PathTree::new(&vectors, &paths);
             let rows = own.iter().map(|v| v[beyond..].to_vec());
             let left = Annihilator::new(f, rows, shared + 1);
-            for tree in [tree.of_bases(f), tree] {
+            for tree in [PathTree::of_bases(f, &tree.bases(f)), tree] {
                 let found = completing(&tree, &left, kept);
                 for node in 0..paths.len() {
                     let pivots = whole(node);
