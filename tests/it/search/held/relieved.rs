@@ -177,7 +177,7 @@ fn what_helps_a_clamped_search_is_said() {
     let o = run(&[&["search", "gripper-10"][..], &few].concat());
     let text = String::from_utf8(o.stdout).unwrap();
     assert_eq!(o.status.code(), Some(1));
-    has(&text, "--max-external 2\n");
+    has(&text, "--max-external 2 --max-mobility 4\n");
     // What balls alone hold turns between them, in the mechanism as it is and in every variant.
     let loose = pads().replace("type = \"fixed\"", "type = \"spherical\"");
     let loose = &loose[..loose.find("[[expected]]").unwrap()];
