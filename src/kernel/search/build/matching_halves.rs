@@ -105,31 +105,36 @@ type Completed = Vec<(Set, Vec<usize>)>;
 
 /// Returns what completes the nodes of a group, alike ones together.
 fn completed(field: Field, width: usize, group: &Alike, back: &Grouped) -> Completed {
-    // Nodes of the back that move kept links alike with what they have in common with the group.
+    // Nodes of the back that move kept links alike with what they have in common with the group, where a node of it does so, too.
     let mut alike: Vec<Vec<usize>> = Vec::new();
     let mut of_node: Vec<Vec<usize>> = vec![Vec::new(); group.nodes.len()];
+    let mut numbers: Vec<(Residue, usize)> = Vec::new();
+    let mut known: HashMap<Residue, Option<usize>> = HashMap::new();
     for others in &back.groups {
         let Some(common) = common(field, width, group, others) else {
             continue;
         };
-        let mut known: HashMap<Residue, usize> = HashMap::new();
+        let of_others = others.nodes.iter();
+        numbers.clear();
+        numbers.extend(of_others.map(|(node, moved)| (field.dot(&common.back, moved), *node)));
+        numbers.sort_unstable();
+        known.clear();
         for (found, (_, moved)) in of_node.iter_mut().zip(&group.nodes) {
-            let number = known.entry(field.dot(&common.front, moved));
-            found.push(*number.or_insert_with(|| {
-                alike.push(Vec::new());
-                alike.len() - 1
-            }));
-        }
-        for (node, moved) in &others.nodes {
-            if let Some(&number) = known.get(&field.dot(&common.back, moved)) {
-                alike[number].push(*node);
-            }
+            let number = field.dot(&common.front, moved);
+            let matching = known.entry(number).or_insert_with(|| {
+                let from = &numbers[numbers.partition_point(|(n, _)| *n < number)..];
+                let same = &from[..from.partition_point(|(n, _)| *n == number)];
+                (!same.is_empty()).then(|| {
+                    alike.push(same.iter().map(|(_, node)| *node).collect());
+                    alike.len() - 1
+                })
+            });
+            found.extend(*matching);
         }
     }
     let mut nodes: HashMap<Vec<usize>, Vec<usize>> = HashMap::new();
     let mut different = Vec::new();
-    for (mut found, (node, _)) in of_node.into_iter().zip(&group.nodes) {
-        found.retain(|&number| !alike[number].is_empty());
+    for (found, (node, _)) in of_node.into_iter().zip(&group.nodes) {
         let same = nodes.entry(found).or_insert_with_key(|found| {
             different.push(found.clone());
             Vec::new()
