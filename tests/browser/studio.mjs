@@ -170,6 +170,49 @@ export function studioTests(test) {
     child.kill("SIGINT");
   });
 
+  test("studio: the sheet never moves by itself, has numbers and a unit, and all pins at a place are reached", async () => {
+    const { address, child } = await served(fresh(), "four-bar");
+    await windowed(address, {}, async (tab) => {
+      await ideas(tab);
+      await tab.locator("#new").click();
+      await tab.locator('.card:has-text("An empty sheet")').click();
+      await tab.waitForFunction(() => isEmpty());
+      const begun = await tab.evaluate(() => toPaper([0, 0, 0]));
+      const hand = handOn(tab);
+      const stays = async () => assert.deepEqual(await tab.evaluate(() => toPaper([0, 0, 0])), begun);
+      await hand.tool("slide");
+      await hand.place(-40, 0);
+      await tab.waitForFunction(() => player.scene !== null);
+      await stays();
+      for (const [x, y] of [[-40, 0], [40, 0]]) {
+        await hand.tool("bar");
+        await hand.place(x, y);
+        await hand.place(0, 40);
+      }
+      await hand.tool("ground");
+      await hand.place(0, 40);
+      await hand.tool("drive");
+      await hand.place(0, 40);
+      await tab.waitForFunction(() => desk.motion?.revision === desk.revision && desk.ideas);
+      await stays();
+      const numbers = await tab.locator('[data-layer="grid"] text').allTextContents();
+      for (const words of ["-25", "0", "50", "25 mm"]) assert.ok(numbers.includes(words), `${words} in ${numbers}`);
+      await picture(tab, "studio-numbers", false);
+      await hand.press('#views button:has-text("Grid")');
+      assert.equal(await tab.locator(".grid-line").count(), 0);
+      await hand.tool("select");
+      const seen = new Set();
+      for (let i = 0; i < 3; i += 1) {
+        await hand.place(0, 40);
+        seen.add(await tab.evaluate(() => selection[0].id));
+      }
+      const named = await tab.locator('[aria-label="At this place"] button').allInnerTexts();
+      assert.ok(named.length >= 2, "each has a button");
+      assert.deepEqual([...seen].sort(), named.sort());
+    });
+    child.kill("SIGINT");
+  });
+
   test("studio: the first page is small, asks nobody else, and is well for everybody", async () => {
     const { address, child } = await served(fresh(), "gripper-10");
     for (const [colorScheme, viewport] of [["light", { width: 1300, height: 900 }], ["dark", { width: 390, height: 844 }]]) {

@@ -14,6 +14,8 @@ const camera = {
   centre: [0, 0, 0],
   zoom: 4,
   size: [800, 600],
+  /** Whether the grid, its numbers and the scale are shown. */
+  grid: true,
 };
 
 const flatOf = (v) => [dot(camera.view[0], v), -dot(camera.view[1], v)];

@@ -101,6 +101,19 @@ function acts() {
     ...mirrors, button("Copy", copySelection, "A copy beside it (Ctrl+D)"), button("Delete", deleteSelection, "Delete (Del)"));
 }
 
+/** A button for each pin that is seen where the selected one is. */
+function alsoHere() {
+  const own = selection.length === 1 && sheetPins.find((p) => isSelected(p.what, p.id));
+  const all = own ? seenWith(own) : [];
+  if (all.length < 2) return [];
+  const one = ({ what, id }) => {
+    const made = button(id, () => select([{ what, id }]));
+    made.setAttribute("aria-pressed", isSelected(what, id));
+    return made;
+  };
+  return [element("div", { class: "acts", role: "group", "aria-label": "At this place" }, ...all.map(one))];
+}
+
 /** Shows what is selected. */
 function inspect() {
   const room = byId("thing");
@@ -116,7 +129,7 @@ function inspect() {
   const head = one ? `${selection[0].what} ${one.id}` : `${selection.length} selected`;
   const told = one ? toldOf(selection[0].what, one.id).map((t) => element("p", { class: t.grave ? "told bad" : "told" }, t.remedy ? `${t.words}; ${t.remedy}` : t.words)) : [];
   const fields = element("fieldset", { class: "fields", disabled: fixed ? "" : null }, ...(one ? about[selection[0].what](one) : []), acts());
-  room.replaceChildren(element("h2", {}, head), ...told, fields);
+  room.replaceChildren(element("h2", {}, head), ...alsoHere(), ...told, fields);
   if (same && focused >= 0) room.querySelectorAll("input,select,button")[focused]?.focus();
   return null;
 }

@@ -64,7 +64,13 @@ function makeViews() {
     one.dataset.plane = plane;
     room.append(one);
   }
-  room.append(button("All", fitAll, "All of it in sight (F)"));
+  const grid = button("Grid", () => {
+    camera.grid = !camera.grid;
+    grid.setAttribute("aria-pressed", camera.grid);
+    redraw();
+  }, "Grid, numbers and scale");
+  grid.setAttribute("aria-pressed", true);
+  room.append(button("All", fitAll, "All of it in sight (F)"), grid);
   tellViews();
 }
 
@@ -97,10 +103,13 @@ async function begin() {
     showText();
     showIdeas();
     tellTool();
-    // an empty sheet stays as it is while something is put on it
-    takeScene.seen ||= listOf("joint").length === 0;
     if (!desk.look.whole && !desk.look.partly) {
       desk.verdict = null;
+      // an empty sheet stays as it is while something is put on it
+      if (!takeScene.seen && isEmpty()) {
+        takeScene.seen = true;
+        fit();
+      }
       takeScene();
       showVerdict();
     } else redraw();

@@ -23,6 +23,9 @@ function pinAt(paper, kind = "mouse") {
   return near && near.off < (REACHES[kind] ?? 11) ? near.p : null;
 }
 
+/** All pins that are seen where one is. */
+const seenWith = (pin) => sheetPins.filter((p) => Math.hypot(...minus(p.paper, pin.paper)) < 3);
+
 /** The link that is meant, by its id. */
 function linkIdAt(paper) {
   const found = player.scene && player.stress === null ? linkAt(paper) : null;
@@ -135,13 +138,11 @@ function click(event) {
   const pin = pinAt(paper, event.pointerType);
   const link = pin ? null : linkIdAt(paper);
   const found = pin ? [{ what: pin.what, id: pin.id }] : link ? [{ what: "link", id: link }] : [];
+  if (!pin || event.shiftKey) return select(found, event.shiftKey);
   // at a place where several stand, the next click takes the next
-  if (pin && isSelected(pin.what, pin.id) && !event.shiftKey) {
-    const all = pinsAt(pin.at);
-    const next = all[(all.findIndex((p) => isSelected(p.what, p.id)) + 1) % all.length];
-    return select([{ what: next.what, id: next.id }]);
-  }
-  return select(found, event.shiftKey);
+  const all = seenWith(pin);
+  const { what, id } = all[(all.findIndex((p) => isSelected(p.what, p.id)) + 1) % all.length];
+  return select([{ what, id }]);
 }
 
 /** What is under a pointer that holds nothing. */

@@ -14,6 +14,8 @@ function makeSheet() {
   new ResizeObserver(() => {
     const { width, height } = byId("sheet").getBoundingClientRect();
     if (!width || (camera.size[0] === width && camera.size[1] === height)) return;
+    // what is drawn stays as far from the left and the top as it is
+    if (takeScene.seen) panBy((camera.size[0] - width) / 2, (camera.size[1] - height) / 2);
     camera.size = [width, height];
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     redraw();
@@ -22,26 +24,40 @@ function makeSheet() {
 
 const fill = (name, parts) => layer[name].replaceChildren(...parts.filter(Boolean));
 
-/** The lines of the grid, and the axes; where the paper lies along two axes of the coordinates. */
+/** The lines of the grid with their numbers, and the axes; where the paper lies along two axes of the coordinates. */
 function gridLines() {
-  if (!camera.plane) return [];
+  if (!camera.plane || !camera.grid) return [];
   const [w, h] = camera.size;
   const step = gridStep() * 5;
   const out = [];
   const [k, l] = [0, 1].map((n) => camera.view[n].findIndex((x) => Math.abs(x) > 0.5));
   const [low, high] = [fromPaper([0, h], camera.centre), fromPaper([w, 0], camera.centre)];
-  const lines = (axis, far, line) => {
+  const lines = (axis, line, place) => {
     const [from, to] = [low[axis], high[axis]].sort((a, b) => a - b);
     if ((to - from) / step > 200) return;
     for (let x = Math.ceil(from / step) * step; x <= to; x += step) {
       const p = [...camera.centre];
       p[axis] = x;
-      out.push(svgElement("path", { class: Math.abs(x) < step / 2 ? "axis-line" : "grid-line", d: line(toPaper(p)) }));
+      const at = toPaper(p);
+      out.push(svgElement("path", { class: Math.abs(x) < step / 2 ? "axis-line" : "grid-line", d: line(at) }));
+      const named = place(at);
+      if (named.y > 10 && (named.y > 22 || named.x > 3)) out.push(svgElement("text", { class: "small soft", ...named }, String(rounded(x, step))));
     }
   };
-  lines(k, w, ([x]) => `M${x.toFixed(1)} 0V${h}`);
-  lines(l, h, ([, y]) => `M0 ${y.toFixed(1)}H${w}`);
+  lines(k, ([x]) => `M${x.toFixed(1)} 0V${h}`, ([x]) => ({ x: x + 3, y: 11 }));
+  lines(l, ([, y]) => `M0 ${y.toFixed(1)}H${w}`, ([, y]) => ({ x: 3, y: y - 3 }));
   return out;
+}
+
+/** How long a length of the file is on the sheet. */
+function scaleBar() {
+  if (!camera.grid) return [];
+  const step = gridStep() * 5;
+  const words = `${shown(step)} ${desk.look?.file?.length_unit ?? "m"}`;
+  return [
+    svgElement("path", { class: "fine", d: `M48 42v6h${(step * camera.zoom).toFixed(1)}v-6` }),
+    svgElement("text", { class: "small soft", x: 54 + step * camera.zoom, y: 50 }, words),
+  ];
 }
 
 /** The directions of the coordinates, in the corner. */
@@ -149,7 +165,7 @@ function drawSheet(traces) {
     return j ? jointOnPaper(scene, sight, pose, j) : toPaper(previewed(p.at));
   };
   sheetPins = pins().map((p) => ({ ...p, paper: paperOf(p) }));
-  fill("grid", [...gridLines(), ...corner3()]);
+  fill("grid", [...gridLines(), ...scaleBar(), ...corner3()]);
   if (scene) {
     const { swaps, symbols } = swapsOfIdea();
     const marked = symbols && bending === scene ? { ...scene, symbols } : bending;
@@ -196,11 +212,11 @@ function takeScene() {
   if (!scene) {
     stop();
     player.scene = null;
-    byId("player").hidden = true;
+    byId("player").inert = true;
     drawSheet([]);
     return;
   }
-  byId("player").hidden = false;
+  byId("player").inert = false;
   const first = !takeScene.seen;
   if (first) {
     takeScene.seen = true;

@@ -5,10 +5,8 @@ function card({ name, what }) {
   const made = element("button", { type: "button", class: "card" }, picture, element("b", {}, name), element("small", {}, what ?? ""));
   made.addEventListener("click", async () => {
     byId("shelf").close();
-    const done = await inTurn("begin", { name });
-    if (!done) return;
-    select([]);
     takeScene.seen = false;
+    if (await inTurn("begin", { name })) select([]);
   });
   return made;
 }

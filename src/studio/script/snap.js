@@ -50,5 +50,6 @@ function snapped(paper, { deep, base, without = [], free = false }) {
       words.push(`${"xyz"[i]} as ${line.m.pin.id}`);
     } else [at[i], point[i]] = [grid, grid];
   }
-  return { at, point, guides: guides.map((g) => [g, at]), words: words.join(", "), pin: null };
+  const there = all.find((m) => m.pin && apart(m.at, at) < touching());
+  return { at, point, guides: guides.map((g) => [g, at]), words: words.join(", "), pin: null, ...there };
 }
