@@ -115,7 +115,7 @@ pub(in crate::score) const VARIANT: &str = "variant";
 #[serde(default, deny_unknown_fields)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a question")]
 pub struct Request {
-    /// Redundant constraints allowed within the mechanism.
+    /// Redundant constraints allowed within the mechanism; as many as the file allows where that is more.
     pub max_redundant: u32,
     /// Redundant constraints allowed from the joints that [`Request::state`] adds; takes those joints into the search.
     pub max_external: Option<u32>,
@@ -325,7 +325,7 @@ impl Request {
         }))
     }
 
-    /// The conditions on the variants of a mechanism that is prepared, and why its geometry looks rounded, where that may
+    /// The conditions on the variants of a mechanism that is prepared, with those of its file where the request says nothing, and why its geometry looks rounded, where that may
     /// matter; `tell` is warned of that.
     ///
     /// # Errors
@@ -345,14 +345,19 @@ impl Request {
             }
             _ => DEFAULT_TOLERANCE,
         };
+        let file = &prepared.mechanism.search;
+        let symmetry = match self.symmetry {
+            Symmetry::All if file.symmetric => Symmetry::SymmetricOnly,
+            asked => asked,
+        };
         let conditions = Conditions {
-            max_redundant: self.max_redundant,
+            max_redundant: self.max_redundant.max(file.max_redundant),
             state,
-            max_mobility: self.max_mobility,
+            max_mobility: self.max_mobility.or(file.max_mobility),
             max_changes: self.max_changes,
             keep_output: !self.allow_output_change,
             drives: self.drives,
-            symmetry: self.symmetry,
+            symmetry,
             throughout: !self.pose_only,
             counted: self.counted,
             cheapest: self.cheapest(&prepared.mechanism)?,

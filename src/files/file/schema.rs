@@ -277,6 +277,12 @@ pub struct SearchEntry {
     /// Joints that are mapped to each other by a rotation about one axis, each to the next and the last to the first: pairs for
     /// half a turn, or groups of three for a third. Cannot be combined with mirror images.
     pub turn: Vec<Vec<String>>,
+    /// Redundant constraints that may be left within the mechanism; 0 by default.
+    pub max_redundant: Option<u32>,
+    /// Largest mobility W allowed; any by default.
+    pub max_mobility: Option<i64>,
+    /// Whether only variants that are their own mirror image are listed.
+    pub symmetric: bool,
     /// Costs by option or type name, and `change`, `driven` (extra cost of changing a driven joint), `link` and `harmful` (cost
     /// of each harmful redundant constraint that a searched state adds).
     pub costs: BTreeMap<String, f64>,

@@ -294,6 +294,9 @@ fn search(m: &Mechanism) -> SearchEntry {
         hold: spec.hold.iter().map(|&l| m.links[l].id.clone()).collect(),
         mirror: spec.mirror.iter().map(|&(a, b)| [id(a), id(b)]).collect(),
         turn: groups.collect(),
+        max_redundant: Some(spec.max_redundant).filter(|n| *n > 0),
+        max_mobility: spec.max_mobility,
+        symmetric: spec.symmetric,
         costs: costs.map(|(n, c)| (n, cost(c))).collect(),
         ..SearchEntry::default()
     }

@@ -221,6 +221,12 @@ pub struct SearchSpec {
     /// Joints that map to each other when the mechanism is turned, each to the next and the last to the first: two by
     /// half a turn, three by a third. Not allowed together with mirror images.
     pub turn: Vec<Vec<JointId>>,
+    /// Redundant constraints that may be left within the mechanism; none where 0.
+    pub max_redundant: u32,
+    /// Largest mobility W allowed.
+    pub max_mobility: Option<i64>,
+    /// Whether only variants are wanted that are their own mirror image.
+    pub symmetric: bool,
     /// Costs.
     pub costs: CostSpec,
     /// The driven freedoms that a search follows, in addition to the motions of outputs. They are set by a search, not

@@ -323,3 +323,31 @@ fn a_type_that_a_joint_has_is_offered_at_the_others() {
     let none = searched(&file, &["--forbid", "1-2=universal"]);
     assert_eq!(none["space"], searched(&file, &[])["space"]);
 }
+
+#[test]
+fn limits_in_the_file_are_those_of_the_options() {
+    let own = builtin::text("lever-gripper").unwrap();
+    for (keys, flags) in [
+        ("max_redundant = 1", "--max-redundant 1"),
+        ("max_mobility = 1", "--max-mobility 1"),
+        ("symmetric = true", "--symmetric"),
+    ] {
+        let text = own.replacen("[search]\n", &format!("[search]\n{keys}\n"), 1);
+        assert_ne!(text, own);
+        let (_folder, path) = written("mine.toml", &text);
+        let counts = |line: &str| {
+            let found = json(&format!("search {line} --count --format json"));
+            [
+                &found["admissible"],
+                &found["lasting"],
+                &found["determinate"],
+            ]
+            .map(Value::clone)
+        };
+        let asked = counts(&format!("lever-gripper {flags}"));
+        assert_eq!(counts(path), asked, "{keys}");
+        assert_ne!(counts("lever-gripper"), asked, "{keys}");
+        let kept = out(&["export", path, "--to", "toml"]);
+        has(&kept, keys);
+    }
+}

@@ -108,7 +108,12 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
 
 pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings) -> SearchSpec {
     let at = out.key("search");
-    let mut spec = SearchSpec::default();
+    let mut spec = SearchSpec {
+        max_redundant: file.search.max_redundant.unwrap_or(0),
+        max_mobility: file.search.max_mobility,
+        symmetric: file.search.symmetric,
+        ..SearchSpec::default()
+    };
     let hold = at.key("hold");
     let held = hold.entries(&file.search.hold);
     spec.hold
