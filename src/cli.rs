@@ -5,14 +5,15 @@ mod examples;
 mod option;
 mod terminal;
 
+use crate::builtin;
 use crate::cli::command::Command;
 use crate::cli::option::Global;
 use crate::cli::terminal::Done;
 use anyhow::Context;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser};
 use std::ffi::OsString;
-use std::io::{ErrorKind, Write};
-use std::path::PathBuf;
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// A search engine for statically determinate mechanisms.
@@ -47,6 +48,7 @@ pub fn run() -> ExitCode {
 /// bad input or failure, 130 interrupted by Ctrl-C, 143 by SIGTERM and 129 by SIGHUP.
 pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
+    let (words, opened) = with_command(words);
     terminal::interrupt::outlive_file_limits();
     let parsed = Args::command().try_get_matches_from(&words);
     let parsed = parsed.and_then(|m| Ok((Args::from_arg_matches(&m)?, outputs(&m))));
@@ -86,7 +88,29 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Explain(a) => command::explain::run(a),
         Command::Completions(a) => command::completions::run(a, Args::command()),
     });
-    finish(result)
+    let told = |done| match &opened {
+        Some(file) => command::check::tell_next(file).map(|_| done),
+        None => Ok(done),
+    };
+    finish(result.and_then(told))
+}
+
+/// Returns the arguments with the command that a file alone means: `studio` if there is a display and standard output is a terminal,
+/// otherwise `check`, with the file.
+fn with_command(mut words: Vec<OsString>) -> (Vec<OsString>, Option<String>) {
+    let file = match &words[..] {
+        [_, file] => file.to_string_lossy().into_owned(),
+        _ => return (words, None),
+    };
+    let is_command = Args::command().find_subcommand(&file).is_some();
+    let path = Path::new(&file);
+    let is_file = path.extension().is_some() || path.is_file() || builtin::text(&file).is_some();
+    if is_command || file.starts_with('-') || !is_file {
+        return (words, None);
+    }
+    let shown = std::io::stdout().is_terminal() && command::studio::has_display();
+    words.insert(1, if shown { "studio" } else { "check" }.into());
+    (words, (!shown).then_some(file))
 }
 
 /// Returns the files that options of a command name to be written, each with the name of its option.

@@ -16,6 +16,7 @@ use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::mechanism::describe;
 use crate::view::search::costs;
 use crate::view::terminal::layout::fit;
+use crate::view::terminal::next_commands::{self, NextCommand};
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 
@@ -72,6 +73,20 @@ pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
         };
         let text = fit(&text, output::width(None));
         write!(out, "{}", toned(text, None, [(verdict, tone)]))?;
+        Ok(Done::Found)
+    })
+}
+
+/// Prints what to do next with a file.
+pub(in crate::cli) fn tell_next(file: &str) -> anyhow::Result<Done> {
+    let next = [
+        ("analyze", "Show what is redundant, and where"),
+        ("search", "Find the redesigns that remove it"),
+        ("studio", "Draw and change it in the browser"),
+    ];
+    let next = next.map(|(command, gives)| NextCommand::new(command, file, "", gives));
+    output::to(None, |out| {
+        write!(out, "{}", next_commands::text(&next, output::width(None)))?;
         Ok(Done::Found)
     })
 }

@@ -12,7 +12,6 @@ use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::Analysis;
 use anyhow::{Context, bail, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
-use std::io::IsTerminal;
 use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -239,6 +238,7 @@ fn moving(
 
 /// Returns the size of the PNG, if one is asked for. Reports mistakes before any work is done.
 fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
+    output::not_to_terminal(a.output.as_deref(), "a drawing")?;
     if !a.png && !picture::named(a.output.as_deref()) {
         ensure!(
             a.scale.is_none() && a.width.is_none(),
@@ -247,10 +247,6 @@ fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
         return Ok(None);
     }
     picture::there()?;
-    ensure!(
-        a.output.is_some() || !std::io::stdout().is_terminal(),
-        "a PNG cannot be shown in the terminal; write it to a file with -o"
-    );
     let scale = a.scale.unwrap_or(picture::SCALE);
     ensure!(
         scale > 0.0 && scale <= 100.0,

@@ -71,6 +71,14 @@ pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
     }
 }
 
+/// Lists all of them for people.
+pub(in crate::cli) fn all() -> anyhow::Result<Done> {
+    run(&List {
+        words: Vec::new(),
+        format: ListFormat::Text,
+    })
+}
+
 fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
     let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
     let (mut cells, mut notes) = (Vec::new(), Vec::new());

@@ -39,6 +39,7 @@ pub(in crate::cli) struct Report {
 const MOST: usize = 10_000;
 
 pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
+    output::not_to_terminal(a.output.as_deref(), "a page")?;
     let request = asked(args, a)?;
     let written = load::mechanism(&a.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.

@@ -88,6 +88,12 @@ pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Don
     Ok(Done::Found)
 }
 
+/// Returns true if a browser has a screen to open on.
+pub(in crate::cli) fn has_display() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|v| !v.is_empty());
+    cfg!(any(target_os = "macos", windows)) || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
+}
+
 /// Opens an address in the browser of this machine; whether there is a program that does.
 fn shown(address: &str) -> bool {
     let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {

@@ -89,6 +89,15 @@ pub(in crate::cli) fn files(
     Ok(())
 }
 
+/// Returns an error if a drawing or a page would be written to a terminal.
+pub(in crate::cli) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow::Result<()> {
+    anyhow::ensure!(
+        path.is_some() || !io::stdout().is_terminal(),
+        "{what} is not written to a terminal; give a file with -o FILE"
+    );
+    Ok(())
+}
+
 /// Writes a value as JSON for people to read and programs to parse.
 pub(in crate::cli) fn json(
     out: &mut dyn Write,

@@ -37,6 +37,26 @@ fn check_says_what_a_file_describes() {
 }
 
 #[test]
+fn a_file_alone_is_checked_where_nobody_looks_on() {
+    for name in ["four-bar", "gripper-10"] {
+        let said = out(&[name]);
+        assert!(said.starts_with(&out(&["check", name])), "{said}");
+        for command in ["analyze", "search", "studio"] {
+            has(&said, &format!("ozols {command} {name}\n"));
+        }
+    }
+    let (code, _, err) = ran(&["missing.toml"]);
+    assert_eq!(code, Some(2));
+    has(
+        &err,
+        "missing.toml is neither a file nor a built-in mechanism",
+    );
+    let (code, _, err) = ran(&["analize"]);
+    assert_eq!(code, Some(2));
+    has(&err, "unrecognized subcommand");
+}
+
+#[test]
 fn check_doubts_what_is_likely_a_slip() {
     for [from, to, line, parts] in cases::<4>(
         r#"

@@ -93,6 +93,17 @@ fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
+#[test]
+fn new_without_a_file_lists_what_to_start_from() {
+    let (code, said, err) = ran(&["new"]);
+    assert_eq!(code, Some(0));
+    assert_eq!(said, out(&["list"]));
+    has(&err, "ozols new mine.toml --from NAME");
+    let (code, _, err) = ran(&["new", "--from", "four-bar"]);
+    assert_eq!(code, Some(2));
+    has(&err, "<FILE>");
+}
+
 // list
 
 #[test]
