@@ -8,7 +8,6 @@ use crate::redundancy::analysis::{ContourShare, External};
 use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::text::{formula, in_any_basis, in_any_order};
 use crate::view::analysis::{Analysis, State, agrees, harm};
-use itertools::Itertools;
 use maud::{Markup, PreEscaped, html};
 
 /// The mechanism's size in a line.
@@ -134,7 +133,7 @@ fn contour(s: &State<'_>, i: usize, c: &ContourShare) -> Markup {
                 span class={ "tint t" (c.redundant.min(6)) } { (i + 1) }
                 " " (c.contour.name(m))
             }
-            td { (joints.format(", ")) }
+            td { @for (n, id) in joints.enumerate() { @if n > 0 { ", " } span.id { (id) } } }
             td.n { (c.redundant) }
             td.n { (in_any_order(c)) }
             td.n { (in_any_basis(c)) }

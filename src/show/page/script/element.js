@@ -11,6 +11,9 @@ function element(name, attributes, ...children) {
   return made;
 }
 
+/** A text in which ids with hyphens stay in one piece. */
+const unbroken = (words) => words.split(/( )/).map((w) => (w.includes("-") ? element("span", { class: "id" }, w) : w));
+
 const byId = (id) => document.getElementById(id);
 
 const SVG = "http://www.w3.org/2000/svg";

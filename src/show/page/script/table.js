@@ -51,7 +51,7 @@ function drawRow(i, place) {
   });
   row.append(element("th", { scope: "row", class: "n" }, `${i + 1}${doubt(i) && ` ${doubt(i)}`}`));
   const words = changeLine(i);
-  row.append(element("td", { class: "list" }, element("span", { class: "two", title: words }, words)));
+  row.append(element("td", { class: "list" }, element("span", { class: "two", title: words }, ...unbroken(words))));
   for (const c of columns.filter((c) => c.table)) {
     const value = c.values[i];
     row.append(element("td", { class: classOf(c.key, true) }, value === null ? "" : c.show(value)));
