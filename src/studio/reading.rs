@@ -10,6 +10,7 @@ use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read, text_of};
+use crate::file::warning::WarningKind;
 use crate::file::write::mechanism_file;
 use crate::geom::vector::real;
 use crate::model::mechanism::Mechanism;
@@ -38,6 +39,15 @@ pub(super) struct DeskReading {
     pub(super) outgrown: Vec<(String, String)>,
     /// The description, where it is one.
     pub(super) imported: Option<Box<Imported>>,
+}
+
+/// How much a problem weighs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Weight {
+    Wrong,
+    Doubtful,
+    /// Not there yet: the page says what to draw next.
+    Unfinished,
 }
 
 impl DeskReading {
@@ -74,7 +84,11 @@ impl DeskReading {
                 out.places = [joints, points.map(|p| Some(real(&p.point))).collect()];
                 if let Ok(checked) = check(&name, bytes) {
                     for w in &checked.warnings.warnings {
-                        out.tell(text, w.span.clone(), &w.kind.to_string(), &items, false);
+                        let weight = match w.kind {
+                            WarningKind::NoContour | WarningKind::NoOutput => Weight::Unfinished,
+                            _ => Weight::Doubtful,
+                        };
+                        out.tell(text, w.span.clone(), &w.kind.to_string(), &items, weight);
                     }
                 }
                 out.mechanism = Some(Arc::new(mechanism));
@@ -108,13 +122,13 @@ impl DeskReading {
                 out.file = Some(mechanism_file(m));
                 let doubts = imported.report.doubts();
                 for line in doubts.lines().filter(|l| !l.trim().is_empty()) {
-                    out.tell("", None, line.trim(), &Items::default(), false);
+                    out.tell("", None, line.trim(), &Items::default(), Weight::Doubtful);
                 }
                 out.mechanism = Some(Arc::new(m.clone()));
                 out.imported = Some(Box::new(imported));
             }
             Err(api::Error::File(e)) => out.wrong(&e, &Items::default()),
-            Err(e) => out.tell("", None, &e.to_string(), &Items::default(), true),
+            Err(e) => out.tell("", None, &e.to_string(), &Items::default(), Weight::Wrong),
         }
         out
     }
@@ -124,7 +138,11 @@ impl DeskReading {
             if let ProblemKind::LosesMotion { joint, option, .. } = &p.kind {
                 self.outgrown.push((joint.clone(), option.clone()));
             }
-            self.tell(&e.text, p.span.clone(), &p.kind.to_string(), items, true);
+            let weight = match p.kind {
+                ProblemKind::Unused { .. } | ProblemKind::Disconnected { .. } => Weight::Unfinished,
+                _ => Weight::Wrong,
+            };
+            self.tell(&e.text, p.span.clone(), &p.kind.to_string(), items, weight);
         }
     }
 
@@ -134,7 +152,7 @@ impl DeskReading {
         span: Option<Range<usize>>,
         words: &str,
         items: &Items,
-        grave: bool,
+        weight: Weight,
     ) {
         // What follows a semicolon is the remedy, as in the terminal.
         let (words, remedy) = match words.split_once("; ") {
@@ -145,7 +163,8 @@ impl DeskReading {
         let about = span.and_then(|s| items.at(s.start));
         let about = about.map(|(what, n)| json!([what.word(), n]));
         self.told.push(json!({
-            "words": words, "remedy": remedy, "line": line, "about": about, "grave": grave,
+            "words": words, "remedy": remedy, "line": line, "about": about,
+            "grave": weight == Weight::Wrong, "unfinished": weight == Weight::Unfinished,
         }));
     }
 
@@ -234,6 +253,18 @@ mod tests {
         assert_eq!(told["about"], json!(["joint", 0]), "{told}");
         assert_eq!(told["line"], 10);
         assert_eq!(read.json()["items"].as_array().map(Vec::len), Some(3));
+    }
+
+    #[test]
+    fn a_first_bar_is_unfinished_not_wrong() {
+        let text = "name = \"x\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\n[[point]]\nid = \"end 1\"\nlink = \"1\"\n\
+                    point = [0, 0, 0]\n";
+        let read = DeskReading::own(Path::new("x.toml"), Kind::Toml, text.as_bytes()).json();
+        let told = read["told"].as_array().map_or(&[][..], Vec::as_slice);
+        assert_eq!(told.len(), 2, "{told:?}");
+        for t in told {
+            assert!(t["unfinished"] == true && t["grave"] == false, "{t}");
+        }
     }
 
     #[test]

@@ -34,7 +34,7 @@ function showText() {
     field.setSelectionRange(Math.min(selectionStart, field.value.length), Math.min(selectionEnd, field.value.length));
     field.scrollTop = scrollTop;
   }
-  const told = (isEmpty() ? [] : [...look.told]).sort((a, b) => Number(b.grave) - Number(a.grave));
+  const told = look.told.filter((t) => !t.unfinished).sort((a, b) => Number(b.grave) - Number(a.grave));
   const wrong = told.filter((t) => t.grave).length;
   byId("problems").replaceChildren(...(told.length ? [element("ul", { class: "problems", "aria-label": "Problems and doubts" }, ...told.map(problem))] : []));
   byId("text-fold").querySelector("summary").textContent = `The file${wrong ? `: ${wrong} wrong` : told.length ? `: ${told.length} doubtful` : ""}`;
