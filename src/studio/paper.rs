@@ -17,7 +17,7 @@ macro_rules! part {
 }
 
 /// The studio's own scripts by idea, in the order they are run, after those that the report's page shares with it.
-const SCRIPTS: [(&str, &str); 17] = [
+const SCRIPTS: [(&str, &str); 18] = [
     part!("script/talk.js"),
     part!("script/things.js"),
     part!("script/number.js"),
@@ -29,6 +29,7 @@ const SCRIPTS: [(&str, &str); 17] = [
     part!("script/tools.js"),
     part!("script/pointer.js"),
     part!("script/inspect.js"),
+    part!("script/search.js"),
     part!("script/verdict.js"),
     part!("script/ideas.js"),
     part!("script/text.js"),
@@ -148,7 +149,9 @@ fn side() -> Markup {
                 div id="states" role="tablist" aria-label="States" {}
                 div id="verdict-panel" role="tabpanel" tabindex="0" aria-label="Verdict" {}
             }
+            div id="work" role="status" {}
             section id="ideas" aria-label="Ideas" {}
+            section id="search" aria-label="Search" hidden { details id="search-fold" {} }
             section id="force" aria-label="Forces" hidden {}
             section id="text-room" aria-label="The file as text" {
                 div id="problems" {}

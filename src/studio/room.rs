@@ -37,6 +37,8 @@ pub(super) struct Room {
     request: Request,
     wider: Mutex<Option<Request>>,
     ended: AtomicBool,
+    /// The revision whose search is to end with what it has.
+    stopped: AtomicU64,
     /// Searches that were begun and ended, for who wants to know that no two are at work.
     pub(super) searches: [AtomicU64; 2],
 }
@@ -69,6 +71,7 @@ impl Room {
             request,
             wider: Mutex::default(),
             ended: AtomicBool::new(false),
+            stopped: AtomicU64::new(0),
             searches: Default::default(),
         })
     }
@@ -128,6 +131,16 @@ impl Room {
     /// Whether a revision is of no use any more.
     pub(super) fn is_old(&self, revision: u64) -> bool {
         self.ended() || self.newest.load(Ordering::SeqCst) != revision
+    }
+
+    /// Stops the search of a revision, which returns what it has found; 0 stops none.
+    pub(super) fn stop(&self, revision: u64) {
+        self.stopped.store(revision, Ordering::SeqCst);
+    }
+
+    /// Returns true if the search of a revision is to end.
+    pub(super) fn is_over(&self, revision: u64) -> bool {
+        self.is_old(revision) || self.stopped.load(Ordering::SeqCst) == revision
     }
 
     /// Tells all windows, those too that come later, what was found of a revision.

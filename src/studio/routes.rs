@@ -189,6 +189,10 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
         }
         "take" => take(&read(asked)?, room),
         "ask" => ask(&read(asked)?, room),
+        "stop" => {
+            room.stop(room.desk().revision);
+            Ok(json!({}))
+        }
         "settle" => {
             let Yes { yes } = read(asked)?;
             room.at_desk(|desk| {

@@ -114,6 +114,7 @@ pub(super) fn joint_types() -> Value {
             "type": word,
             "class": j.joint_type.class(),
             "free": free,
+            "trade": j.joint_type.trade_names().collect::<Vec<_>>(),
             "about": words.get(word).map(|w| &w.about),
             "axis": words.get(word).map(|w| &w.axis),
             "symbol": symbol(word),

@@ -1,4 +1,5 @@
-//! The work at the newest text: the verdict, the motion, the forces over it where the file states loads, the search. One thread does it; what another text makes useless ends.
+//! The work at the newest text: one thread does the verdict and the search, which ends where another text makes it useless. A second
+//! thread does the motion, and the forces over it where the file states loads.
 
 use super::idea;
 use super::room::{Found, Room};
@@ -22,12 +23,28 @@ use serde_json::{Value, json};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Sender, channel};
 
 /// Ideas that are given.
 const IDEAS: usize = 10;
 
-/// Works until the room is closed.
-pub(super) fn work(room: &Room) {
+/// A revision, its mechanism and the states of that, from which the motion is computed.
+type Judged = (u64, Arc<Mechanism>, Vec<StateAnalysis>);
+
+/// Works until the room is closed. A motion that takes long holds up neither verdicts nor ideas.
+pub(super) fn work(room: &Arc<Room>) {
+    let (to_motion, next) = channel::<Judged>();
+    let moving = room.clone();
+    let made = std::thread::Builder::new().name("studio-motion".to_owned());
+    let made = made.spawn(move || {
+        while let Ok(first) = next.recv() {
+            let (revision, m, states) = next.try_iter().last().unwrap_or(first);
+            or_trouble(&moving, revision, || motion(&moving, revision, &m, &states));
+        }
+    });
+    if made.is_err() {
+        return;
+    }
     let mut done = 0;
     while let Some(revision) = room.wait(done) {
         done = revision;
@@ -36,16 +53,19 @@ pub(super) fn work(room: &Room) {
             room.tell(revision, "verdict", &nothing(revision));
             continue;
         };
-        // A flaw in the engine is no reason to lose the window.
-        let tried = catch_unwind(AssertUnwindSafe(|| look(room, revision, &m)));
-        if tried.is_err() {
-            let words = "the engine failed on this mechanism; report this with the file. The text is unchanged.";
-            room.tell(
-                revision,
-                "trouble",
-                &json!({ "revision": revision, "words": words }),
-            );
-        }
+        or_trouble(room, revision, || look(room, revision, &m, &to_motion));
+    }
+}
+
+/// Works at a revision. A flaw in the engine is no reason to lose the window.
+fn or_trouble(room: &Room, revision: u64, work: impl FnOnce()) {
+    if catch_unwind(AssertUnwindSafe(work)).is_err() {
+        let words = "the engine failed on this mechanism; report this with the file. The text is unchanged.";
+        room.tell(
+            revision,
+            "trouble",
+            &json!({ "revision": revision, "words": words }),
+        );
     }
 }
 
@@ -54,7 +74,7 @@ fn nothing(revision: u64) -> Value {
     json!({ "revision": revision, "analysis": null, "words": [], "scenes": [] })
 }
 
-fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
+fn look(room: &Room, revision: u64, m: &Arc<Mechanism>, to_motion: &Sender<Judged>) {
     let states = match states(m) {
         Ok(states) => states,
         Err(why) => {
@@ -64,6 +84,12 @@ fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
         }
     };
     room.tell(revision, "verdict", &judged(m, &states, revision));
+    // The thread at the other end lives as long as this one.
+    let _ = to_motion.send((revision, m.clone(), states.clone()));
+    search(room, revision, m, &states);
+}
+
+fn motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
     let mut moving = Vec::new();
     for (found, state) in states.iter().zip(m.state_ids()) {
         if room.is_old(revision) {
@@ -78,7 +104,6 @@ fn look(room: &Room, revision: u64, m: &Arc<Mechanism>) {
         "motion",
         &json!({ "revision": revision, "scenes": moving }),
     );
-    search(room, revision, m, &states);
     if !room.is_old(revision) {
         let charts = force_charts(m);
         room.tell(
@@ -134,10 +159,18 @@ fn search(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
                 json!({ "revision": revision, "done": p.done, "of": p.of, "nodes": p.nodes });
             room.tell(revision, "progress", &told);
         }
-        Event::Built | Event::Proving { .. } => {}
+        Event::Built => {
+            // What was found so far is still given.
+            room.stop(0);
+            room.tell(revision, "progress", &json!({ "revision": revision }));
+        }
+        Event::Proving { done, of } => {
+            let told = json!({ "revision": revision, "done": done, "of": of });
+            room.tell(revision, "progress", &told);
+        }
     };
     room.searches[0].fetch_add(1, Ordering::SeqCst);
-    let found = run(m.clone(), &request, &|| room.is_old(revision), &mut tell);
+    let found = run(m.clone(), &request, &|| room.is_over(revision), &mut tell);
     let told = match (found, room.is_old(revision)) {
         (_, true) => Ok(None),
         (Err(why), _) => Err(why.to_string()),
@@ -168,10 +201,10 @@ fn given(
     outcome: Outcome,
 ) -> Result<Value, String> {
     let words = |e: &dyn std::fmt::Display| e.to_string();
-    let is_old = || room.is_old(revision);
-    let remarks = outcome.remarks(&is_old).map_err(|e| words(&e))?;
+    let is_over = || room.is_over(revision);
+    let remarks = outcome.remarks(&is_over).map_err(|e| words(&e))?;
     let mut text = Vec::new();
-    let variants = outcome.variants_unless(&is_old);
+    let variants = outcome.variants_unless(&is_over);
     json::write(&mut text, &outcome, variants, &remarks, None).map_err(|e| words(&e))?;
     let found: Value = serde_json::from_slice(&text).map_err(|e| words(&e))?;
     let marks = idea::marks(m, states, &outcome, &found["variants"]);

@@ -2,104 +2,14 @@
 // program, a killed browser, a foreign page.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { cpSync, existsSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { createRequire } from "node:module";
 import path from "node:path";
-import { browser, fits, ozols, picture, root, work } from "./pages.mjs";
+import { browser, fits, picture, root, work } from "./pages.mjs";
+import { fresh, handOn, ideas, served, settledOn, source, told, verdict, windowed } from "./windows.mjs";
 
 const axe = readFileSync(createRequire(path.join(work, "package.json")).resolve("axe-core/axe.min.js"), "utf8");
-const fresh = () => mkdtempSync(path.join(work, "studio-"));
-
-/** Starts the program; what it says of its address, and how it ends. */
-async function served(folder, ...args) {
-  const child = spawn(ozols, ["studio", "--no-open", ...args], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
-  let said = "";
-  child.stderr.on("data", (d) => (said += d));
-  const ended = new Promise((resolve) => child.on("exit", (code, signal) => resolve({ code, signal, said })));
-  const address = await new Promise((resolve, reject) => {
-    let out = "";
-    child.stdout.on("data", (d) => {
-      out += d;
-      if (out.includes("\n")) resolve(out.trim());
-    });
-    ended.then((e) => reject(new Error(`ended: ${e.said}`)));
-  });
-  assert.match(address, /^http:\/\/127\.0\.0\.1:\d+\/[0-9a-f]{32}\/$/);
-  return { child, address, ended, status: async () => (await fetch(`${address}status`)).json() };
-}
-
-/** Opens a window on it, gives it to `use`, and holds it to silence: no message, no error, nothing asked of others. */
-async function windowed(address, options, use) {
-  const tab = await browser.newPage({ viewport: { width: 1300, height: 900 }, ...options });
-  const noise = [];
-  let bytes = 0;
-  const slow = /GPU stall due to ReadPixels/;
-  // who ends the program hears of it from the browser, too
-  const ending = /net::ERR|Failed to load resource/;
-  tab.on("console", (m) => slow.test(m.text()) || (options.ends && ending.test(m.text())) || noise.push(`console ${m.type()}: ${m.text()}`));
-  tab.on("pageerror", (e) => noise.push(`error: ${e.message}`));
-  tab.on("dialog", (d) => {
-    noise.push(`dialog: ${d.message()}`);
-    d.dismiss();
-  });
-  tab.on("request", (r) => /^(data|blob):/.test(r.url()) || r.url().startsWith(address) || noise.push(`request: ${r.url()}`));
-  tab.on("response", async (r) => {
-    const length = Number(r.headers()["content-length"] ?? 0);
-    bytes += length;
-  });
-  await tab.goto(address);
-  await tab.waitForSelector("#types button");
-  await use(tab, () => bytes);
-  assert.deepEqual(noise, []);
-  await tab.close();
-}
-
-const ideas = (tab) => tab.waitForSelector(".idea");
-const source = (tab) => tab.locator("#text").inputValue();
-const verdict = (tab) => tab.locator("#verdict-panel").innerText();
-const told = (tab, words) => tab.waitForFunction((w) => document.body.innerText.includes(w), words);
-
-/** Waits for what was asked last. A promise that is awaited from outside may be collected, so that the page notes when it is kept. */
-const settledOn = async (tab) => {
-  await tab.evaluate(() => {
-    const asked = { kept: false }, keep = () => { asked.kept = true; };
-    globalThis.asked = asked;
-    last.then(keep, keep);
-  });
-  await tab.waitForFunction(() => globalThis.asked.kept);
-};
-
-/** A hand that counts: clicks on places of the file's coordinates, on buttons, and keys. */
-function handOn(tab, zoom = 4) {
-  const count = { clicks: 0 };
-  const at = async (x, y) => {
-    const b = await tab.locator("#sheet").boundingBox();
-    return [b.x + b.width / 2 + zoom * x, b.y + b.height / 2 - zoom * y];
-  };
-  const settled = () => settledOn(tab);
-  return {
-    count,
-    at,
-    settled,
-    async place(x, y) {
-      count.clicks += 1;
-      const [a, b] = await at(x, y);
-      await tab.mouse.move(a, b);
-      await tab.mouse.click(a, b);
-      await settled();
-    },
-    async press(selector) {
-      count.clicks += 1;
-      await tab.locator(selector).first().click();
-      await settled();
-    },
-    tool(name) {
-      return this.press(`[data-tool="${name}"]`);
-    },
-  };
-}
 
 /** Draws a gripper of six links: a slide, two rods, two jaws, a frame. */
 async function drawGripper(tab) {
@@ -166,49 +76,6 @@ export function studioTests(test) {
       await hand.press("#redo");
       await told(tab, "Statically determinate");
       await picture(tab, "studio-redesigned", false);
-    });
-    child.kill("SIGINT");
-  });
-
-  test("studio: the sheet never moves by itself, has numbers and a unit, and all pins at a place are reached", async () => {
-    const { address, child } = await served(fresh(), "four-bar");
-    await windowed(address, {}, async (tab) => {
-      await ideas(tab);
-      await tab.locator("#new").click();
-      await tab.locator('.card:has-text("An empty sheet")').click();
-      await tab.waitForFunction(() => isEmpty());
-      const begun = await tab.evaluate(() => toPaper([0, 0, 0]));
-      const hand = handOn(tab);
-      const stays = async () => assert.deepEqual(await tab.evaluate(() => toPaper([0, 0, 0])), begun);
-      await hand.tool("slide");
-      await hand.place(-40, 0);
-      await tab.waitForFunction(() => player.scene !== null);
-      await stays();
-      for (const [x, y] of [[-40, 0], [40, 0]]) {
-        await hand.tool("bar");
-        await hand.place(x, y);
-        await hand.place(0, 40);
-      }
-      await hand.tool("ground");
-      await hand.place(0, 40);
-      await hand.tool("drive");
-      await hand.place(0, 40);
-      await tab.waitForFunction(() => desk.motion?.revision === desk.revision && desk.ideas);
-      await stays();
-      const numbers = await tab.locator('[data-layer="grid"] text').allTextContents();
-      for (const words of ["-25", "0", "50", "25 mm"]) assert.ok(numbers.includes(words), `${words} in ${numbers}`);
-      await picture(tab, "studio-numbers", false);
-      await hand.press('#views button:has-text("Grid")');
-      assert.equal(await tab.locator(".grid-line").count(), 0);
-      await hand.tool("select");
-      const seen = new Set();
-      for (let i = 0; i < 3; i += 1) {
-        await hand.place(0, 40);
-        seen.add(await tab.evaluate(() => selection[0].id));
-      }
-      const named = await tab.locator('[aria-label="At this place"] button').allInnerTexts();
-      assert.ok(named.length >= 2, "each has a button");
-      assert.deepEqual([...seen].sort(), named.sort());
     });
     child.kill("SIGINT");
   });

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import path from "node:path";
 import { dragTests } from "./drags.mjs";
 import { catalogueTests } from "./catalogue.mjs";
+import { drawingTests } from "./drawing.mjs";
 import { pairTests } from "./pairs.mjs";
 import { stageTests } from "./stage.mjs";
 import { studioTests } from "./studio.mjs";
@@ -32,6 +33,7 @@ pairTests(test);
 stageTests(test, { gripper, loaded });
 dragTests(test, { gripper });
 studioTests(test);
+drawingTests(test);
 
 test("the verdict stands at the top, and every part has its words", async () => {
   await open(gripper, {}, async (tab) => {

@@ -23,7 +23,7 @@ function ideaRow(v, n) {
   const figures = `cost ${v.cost} · W = ${v.mobility} · σ = ${v.redundant}${stands ? ` · ${stands}` : ""}`;
   const none = v.changes.length === 0;
   const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Take this idea: the file is changed, undo brings it back" },
-    element("span", { class: "idea-words" }, changesInWords(v.changes)), element("small", {}, figures));
+    element("span", { class: "idea-words" }, ...unbroken(changesInWords(v.changes))), element("small", {}, figures));
   return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
 }
 
@@ -60,17 +60,17 @@ function showIdeas() {
   const head = element("h2", {}, "Ideas");
   const value = desk.ideas;
   const part = (...inside) => room.replaceChildren(head, ...inside);
-  if (!desk.verdict?.analysis) return room.replaceChildren();
-  if (!value) {
-    const p = desk.progress;
-    return part(element("p", { class: "help", role: "status" }, p ? `Searching: joint ${p.done} of ${p.of}, ${inThrees(p.nodes)} nodes …` : "Searching …"));
-  }
+  if (!desk.verdict?.analysis?.states.some((s) => !isOpen(s))) return room.replaceChildren();
+  if (!value) return part();
   const asked = value.asked ? [askedNow(value.asked)] : [];
   if (value.why) return part(...asked, element("p", { class: "help" }, `Redesigns were not searched: ${value.why}.`));
   const { found, notes } = value;
-  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: list options under [search] in the file."));
-  const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants ${value.asked ? "are found" : "have σ = 0 and keep the motion of outputs and drives"} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
+  if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: tick joint types under “Search options”."));
+  const left = searchOf().max_redundant;
+  const goal = left ? `σ ≤ ${left}` : "σ = 0";
+  const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants ${value.asked ? "are found" : `have ${goal} and keep the motion of outputs and drives`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
+  const stopped = found.stop === "interrupted" ? ["The search was stopped: these are the ideas found until then."] : [];
   const all = found.variants.map(ideaRow);
   const none = found.variants.length ? [] : nothingFound(value);
-  return part(...asked, element("p", { class: "counts" }, counts), ...none, element("ol", { class: "idea-list" }, ...all), ...(notes ?? []).map((n) => element("p", { class: "help" }, n)));
+  return part(...asked, element("p", { class: "counts" }, counts), ...none, element("ol", { class: "idea-list" }, ...all), ...[...stopped, ...(notes ?? [])].map((n) => element("p", { class: "help" }, n)));
 }

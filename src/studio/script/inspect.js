@@ -121,16 +121,24 @@ function inspect() {
   room.hidden = !selection.length;
   if (!selection.length) return room.replaceChildren();
   if (room.contains(document.activeElement) && room.dataset.of === key3() && inspect.revision === desk.revision) return null;
-  const focused = room.contains(document.activeElement) ? [...room.querySelectorAll("input,select,button")].indexOf(document.activeElement) : -1;
-  const same = room.dataset.of === key3();
   [room.dataset.of, inspect.revision] = [key3(), desk.revision];
   const fixed = desk.file?.kind !== "toml";
   const about = { joint: aboutJoint, link: aboutLink, point: aboutPoint };
   const head = one ? `${selection[0].what} ${one.id}` : `${selection.length} selected`;
   const told = one ? toldOf(selection[0].what, one.id).map((t) => element("p", { class: t.grave ? "told bad" : "told" }, t.remedy ? `${t.words}; ${t.remedy}` : t.words)) : [];
   const fields = element("fieldset", { class: "fields", disabled: fixed ? "" : null }, ...(one ? about[selection[0].what](one) : []), acts());
-  room.replaceChildren(element("h2", {}, head), ...alsoHere(), ...told, fields);
-  if (same && focused >= 0) room.querySelectorAll("input,select,button")[focused]?.focus();
+  const joints = selection.filter((s) => s.what === "joint").map((s) => s.id);
+  const types = !fixed && joints.length === selection.length ? typesAt(joints) : null;
+  refill(room, element("h2", {}, head), ...alsoHere(), ...told, fields, types ?? "");
   return null;
 }
+
+/** Fills a room anew; who writes in one of its fields stays there. */
+function refill(room, ...parts) {
+  const fields = () => [...room.querySelectorAll("input,select,button,summary")];
+  const at = fields().indexOf(document.activeElement);
+  room.replaceChildren(...parts);
+  if (at >= 0) fields()[at]?.focus();
+}
+
 const key3 = () => selection.map((s) => `${s.what} ${s.id}`).join("\n");

@@ -102,6 +102,7 @@ async function begin() {
     showFile(desk.file);
     showText();
     showIdeas();
+    showSearch();
     tellTool();
     if (!desk.look.whole && !desk.look.partly) {
       desk.verdict = null;
@@ -124,8 +125,8 @@ async function begin() {
     showVerdict();
   });
   hear("draft", showVerdict);
-  hear("progress", showIdeas);
   hear("ideas", showIdeas);
+  for (const name of ["look", "verdict", "motion", "progress", "ideas"]) hear(name, showWork);
   for (const name of ["force", "look", "state"]) hear(name, showForce);
   hear("selection", () => {
     inspect();

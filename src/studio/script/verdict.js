@@ -74,6 +74,65 @@ const idleRows = (s) => s.idle.map((t, n) => {
 
 const block3 = (head, rows, more = null) => (rows.length ? element("details", { open: rows.length <= 6 ? "" : null }, element("summary", {}, `${head} (${rows.length})`), more, element("div", { class: "rows" }, ...rows)) : null);
 
+/** Whether nothing can be redundant in a state, as no loop is closed and no coupling holds it. */
+const isOpen = (s) => s.contours === 0 && s.redundant === 0 && !s.per_coupling?.length;
+
+/** Steps that complete a drawing, with a button for each free end; empty if it is complete. */
+function nextSteps(s) {
+  if (desk.file?.kind !== "toml" || !desk.look?.file) return [];
+  if (isEmpty()) return [element("p", { class: "lead" }, "Draw the first part: take Bar (B) and click both its ends, or start from a mechanism under New.")];
+  const frame = frameOf();
+  const loose = looseLinks().filter((l) => l.role !== "object").map((l) => l.id);
+  const ends = listOf("point").filter((p) => isEnd(p.id));
+  const joined = listOf("joint").some((j) => j.links.includes(frame));
+  const next = [];
+  if (!joined) next.push("Join the drawing to the frame: pin one end, or click it with Frame pin (G).");
+  else if (loose.length) next.push(`Join link ${loose.join(", ")} to the rest: draw a bar from pin to pin (B), or pin it to the frame (G).`);
+  else if (!s || isOpen(s)) next.push(ends.length ? "Close the loop: pin a free end to the frame, or draw a bar from it (B)." : "Go on: draw a bar from the last link (B).");
+  else {
+    if (s.mobility > 0 && !listOf("joint").some((j) => j.drive)) next.push("Choose the drive: take Drive (D) and click the joint that the motor moves.");
+    if (!listOf("link").some((l) => l.role === "output")) next.push("Choose the output: take Output (O) and click the link whose motion counts.");
+  }
+  const pinned = (p) => {
+    const spot = { pin: pins().find((q) => q.what === "point" && q.id === p.id), link: null, at: placeOf("point", p.id), point: p.point };
+    return pointer(button(`Pin ${p.id} to the frame`, () => ground(spot)), looked("pin", spot.pin), looked("pin", null));
+  };
+  const buttons = !s || isOpen(s) || loose.length ? ends.slice(0, 4).map(pinned) : [];
+  return next.length ? [element("div", { class: "next" }, ...next.map((words) => element("p", {}, words)), element("div", { class: "acts" }, ...buttons))] : [];
+}
+
+function stopSearch({ target }) {
+  target.disabled = true;
+  return post("stop", {});
+}
+
+/** Shows the stages of work under way: words, the share done if it is known, and a button that stops it. */
+function showWork() {
+  const { look, verdict, motion, ideas, progress: p, revision } = desk;
+  const judged = verdict?.revision === revision;
+  const searched = p?.nodes !== undefined ? `Searching: joint ${p.done} of ${p.of}, ${inThrees(p.nodes)} nodes` : p?.of ? `Ranking: branch ${p.done} of ${p.of}` : p ? "Listing the ideas" : "Searching";
+  const stages = {
+    judge: !judged && (look?.whole || look?.partly) ? "Judging the mechanism" : null,
+    motion: judged && verdict.analysis && motion?.revision !== revision ? "Computing the motion" : null,
+    search: judged && verdict.analysis && !ideas ? searched : null,
+  };
+  const room = byId("work");
+  for (const [stage, words] of Object.entries(stages)) {
+    let row = room.querySelector(`[data-stage="${stage}"]`);
+    if (words === null) row?.remove();
+    else {
+      if (!row) {
+        row = element("div", { class: "stage", "data-stage": stage }, element("span", {}), element("progress", { "aria-label": stage }), stage === "search" ? button("Stop", stopSearch, "End the search with what it has found") : "");
+        room.append(row);
+      }
+      row.firstChild.textContent = words;
+      const bar = row.querySelector("progress");
+      if (stage === "search" && p?.of) [bar.max, bar.value] = [p.of, p.done];
+      else bar.removeAttribute("value");
+    }
+  }
+}
+
 /** Shows what the newest verdict says, or that of a change that is tried. */
 function showVerdict() {
   const value = preview.answer?.verdict ?? desk.verdict;
@@ -85,22 +144,23 @@ function showVerdict() {
   const s = states[desk.state];
   panel.setAttribute("aria-labelledby", states.length > 1 ? `tab-${desk.state}` : "");
   if (!s) {
-    const empty = "Nothing is drawn yet: take the bar (B) and click both its ends, or start from one of the mechanisms under New.";
-    const why = value?.why ?? (isEmpty() ? empty : "It cannot be judged until what is wrong is mended; it stands below.");
-    return panel.replaceChildren(element("p", { class: "lead" }, why));
+    const wrong = (desk.look?.told ?? []).some((t) => t.grave);
+    const why = value?.why ?? (wrong ? "Correct the problems listed below; then there is a verdict." : "");
+    return panel.replaceChildren(...(why ? [element("p", { class: "lead" }, why)] : nextSteps(null)));
   }
-  const words = value.words[desk.state];
+  const open = isOpen(s);
+  const words = open ? { head: "No closed loop yet", text: `It moves in ${s.mobility} way${s.mobility === 1 ? "" : "s"}. Only a closed loop can have redundant constraints.` } : value.words[desk.state];
   const good = s.redundant === 0 && s.redundant_at_most === null;
+  const colour = open || desk.look?.partly ? "" : good ? " good" : " bad";
   const figures = element("p", { class: "figures" },
     element("b", {}, `W = ${s.mobility}`), s.mobility_at_most !== null ? ` to ${s.mobility_at_most}` : "", " · ", element("b", {}, `σ = ${s.redundant}`), s.redundant_at_most !== null ? ` to ${s.redundant_at_most}` : "",
     ` · ${[["link", s.links], ["joint", s.joints], ["contour", s.contours]].map(([word, n]) => `${n} ${word}${n === 1 ? "" : "s"}`).join(", ")}`);
   const meant = s.snapped ?? [];
   const finite = s.finite_mobility === null ? `finite mobility ${s.finite_mobility_at_least} to ${s.finite_mobility_at_most}` : `finite mobility ${s.finite_mobility}`;
   return panel.replaceChildren(...[
-    element("div", { class: `verdict ${good ? "good" : "bad"}` }, element("p", { class: "head" }, words.head), element("p", {}, words.text)),
-    desk.look?.partly ? element("p", { class: "told" }, "Of what hangs on the frame so far; the rest is left out.") : null,
-    figures,
-    element("p", { class: "help", title: s.choice }, `${s.certainty}; ${finite}${s.finite_mobility_proven ? ", proven" : ""}`),
+    element("div", { class: `verdict${colour}` }, element("p", { class: "head" }, words.head), element("p", {}, words.text)),
+    ...nextSteps(s),
+    ...(open ? [] : [figures, element("p", { class: "help", title: s.choice }, `${s.certainty.replace(" (--certificate)", "")}; ${finite}${s.finite_mobility_proven ? ", proven" : ""}`)]),
     block3("Contours", contourRows(s)),
     block3("Self-stresses", stressRows(s)),
     block3("Idle freedoms", idleRows(s)),

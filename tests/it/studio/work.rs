@@ -19,7 +19,7 @@ fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
         for key in ["mechanism", "length_unit", "states"] {
             assert_eq!(verdict["analysis"][key], analysis[key], "{name} {key}");
         }
-        let motion = window.next("motion");
+        let motion = s.window().next("motion");
         assert!(motion["scenes"][0]["moves"][0]["poses"].list().len() > 10);
         let mut search = json(&format!("search {name} --distinct --top 10 --format json"));
         search.as_object_mut().unwrap().shift_remove("seconds");
