@@ -153,10 +153,7 @@ fn layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
             ("determinate_w1", &count(&laid.determinate(Some(1)))),
             ("orbits_w1", &count(&laid.orbits())),
             ("certainty", &certainty(laid.exact)),
-            (
-                "best_cost",
-                &laid.ideas.first().map(|i| milli(i.cost_milli)),
-            ),
+            ("best_cost", &best_cost(&laid.ideas).map(milli)),
         ],
     )?;
     stroke(t, id, laid)?;
@@ -226,7 +223,7 @@ pub(super) fn drawn(t: &Transaction<'_>, d: &DrawnMechanism) -> rusqlite::Result
             ("admissible", &count(&d.admissible)),
             ("certainty", &certainty(d.exact)),
             ("ideas_asked", &number(d.ideas_asked)),
-            ("best_cost", &d.ideas.first().map(|i| milli(i.cost_milli))),
+            ("best_cost", &best_cost(&d.ideas).map(milli)),
         ],
     )?;
     // Another search of the same mechanism may have kept more.
@@ -274,7 +271,6 @@ fn found(
             &[
                 ("structure", &id),
                 ("place", &number(i + 1)),
-                ("adds", &idea.adds),
                 ("changes", &idea.changes),
                 ("choices", &choices(idea)),
                 ("cost", &milli(idea.cost_milli)),
@@ -290,6 +286,11 @@ fn found(
         )?;
     }
     Ok(())
+}
+
+/// Returns the least cost of some ideas, in thousandths; `None` where there are none.
+fn best_cost(ideas: &[IdeaRow]) -> Option<i64> {
+    ideas.iter().map(|i| i.cost_milli).min()
 }
 
 fn choices(idea: &IdeaRow) -> String {

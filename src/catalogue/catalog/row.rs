@@ -7,7 +7,7 @@ use crate::chains::roles::Subject;
 use crate::chains::structure::PairStructure;
 use crate::file::schema::MechanismFile;
 use crate::file::write;
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::model::ranking::ClearanceSum;
 use crate::rank::finite::Finite;
 use crate::rank::method::auto::{Decision, decide};
@@ -21,7 +21,6 @@ use crate::score::request::{List, Request};
 use crate::score::run::{RunError, run};
 use crate::search::Search;
 use crate::search::answer::counts::orbits;
-use crate::search::answer::freedom_patterns;
 use crate::search::answer::ideas::Idea;
 use crate::search::question::conditions::Symmetry;
 use crate::synthesis::beside::beside;
@@ -29,8 +28,9 @@ use crate::synthesis::figures::{LayoutFigures, figures};
 use crate::synthesis::layout::{Layout, NoLayout, layout};
 use crate::synthesis::mechanism::mechanism_file;
 use crate::synthesis::structure::Structure;
+use itertools::Itertools;
 use num_bigint::BigUint;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A structure of a catalogue.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ pub struct Laid {
     pub symmetric: Symmetric,
     /// Whether every count is exact; lower bounds otherwise, where the node budget ended the search.
     pub exact: bool,
-    /// The best ideas with W = 1, cheapest first.
+    /// The best ideas with W = 1: symmetric ones first, then the cheapest, which is always among them.
     pub ideas: Vec<IdeaRow>,
 }
 
@@ -129,8 +129,6 @@ impl Symmetric {
 /// An idea of a catalogue.
 #[derive(Debug, Clone)]
 pub struct IdeaRow {
-    /// What it adds, in words.
-    pub adds: String,
     /// Its first variant in words.
     pub changes: String,
     /// Of each joint in the order of the file, the option of its first variant, 0 for the present one.
@@ -253,7 +251,11 @@ fn in_general_position(
                 counts: general.counts.clone(),
                 symmetric: Symmetric::none(),
                 exact: true,
-                ideas: rows(&search, general.ideas(&search, spec.ideas)),
+                ideas: rows(
+                    &search,
+                    general.ideas(&search, SEEN * spec.ideas),
+                    spec.ideas,
+                ),
             };
             return Ok(Some((as_file, variants)));
         }
@@ -318,18 +320,63 @@ fn lay(
 pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     let search = &outcome.search;
     let diagrams = outcome.diagrams.as_ref().filter(|_| top > 0);
-    diagrams.map_or_else(Vec::new, |d| rows(search, search.ideas(d, top)))
+    diagrams.map_or_else(Vec::new, |d| rows(search, search.ideas(d, SEEN * top), top))
 }
 
-/// Ideas of a search, each with the scores of its first variant.
-fn rows(search: &Search, ideas: Vec<Idea>) -> Vec<IdeaRow> {
+/// Ideas that are looked at for each that is kept: many differ in directions alone, or are not symmetric.
+const SEEN: usize = 5;
+
+/// The joints that an idea changes, each with the type that is put there and what is put in series with it.
+type Types = Vec<(JointId, &'static str, Option<usize>)>;
+
+/// Returns what an idea changes, whatever its directions.
+fn types(search: &Search, idea: &Idea) -> Types {
+    let chosen = search.space.variables.iter().zip(&idea.first.choices);
+    let types = chosen.filter(|(_, c)| **c != 0).flat_map(|(v, &c)| {
+        let choice = &v.choices[c];
+        v.joints.iter().map(|&j| {
+            let option = &search.mechanism.joints[j].options[choice.option];
+            (j, option.joint_type.name(), choice.unloading)
+        })
+    });
+    types.sorted().collect()
+}
+
+/// Returns the first `top` ideas that differ in what is changed, an idea and its images by the symmetry of the layout being one: those
+/// that are their own images first, then the cheapest. The cheapest of all is always among them.
+fn different(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<Idea> {
+    let spec = &search.mechanism.search;
+    let image = |of: &Types| -> Option<Types> {
+        let all = of
+            .iter()
+            .map(|&(j, name, more)| (spec.image(j), name, more));
+        Some(all.sorted().collect())
+    };
+    let mut seen = BTreeSet::new();
+    let different = ideas.into_iter().filter_map(|idea| {
+        let images = std::iter::successors(Some(types(search, &idea)), image).take(spec.order());
+        let images: BTreeSet<Types> = images.collect();
+        let symmetric = spec.order() > 1 && images.len() == 1;
+        let is_new = images
+            .first()
+            .is_some_and(|first| seen.insert(first.clone()));
+        is_new.then_some((symmetric, idea))
+    });
+    let (mut first, others): (Vec<_>, Vec<_>) = different.enumerate().partition(|(_, (s, _))| *s);
+    let room = top.saturating_sub(usize::from(others.first().is_some_and(|(n, _)| *n == 0)));
+    first.truncate(room);
+    let all = first.into_iter().chain(others).take(top);
+    all.map(|(_, (_, idea))| idea).collect()
+}
+
+/// Returns those of the ideas of a search that are kept, each with the scores of its first variant.
+fn rows(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<IdeaRow> {
     if ideas.is_empty() {
         return Vec::new();
     }
     let evaluator = Evaluator::in_states(search, ClearanceSum::Worst, &[]).ok();
     let mut scratch = Scratch::default();
     let row = |idea: Idea| IdeaRow {
-        adds: freedom_patterns::in_words(&search.mechanism, &idea.added),
         changes: in_words(search, &changes(search, &idea.first)),
         cost_milli: search.steps.milli(idea.first.key.cost()),
         change_count: idea.first.key.changes(),
@@ -339,7 +386,7 @@ fn rows(search: &Search, ideas: Vec<Idea>) -> Vec<IdeaRow> {
         variants: idea.variants,
         choices: idea.first.choices,
     };
-    ideas.into_iter().map(row).collect()
+    different(search, ideas, top).into_iter().map(row).collect()
 }
 
 impl Laid {

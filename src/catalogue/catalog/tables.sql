@@ -128,9 +128,8 @@ CREATE TABLE counts (
 ) WITHOUT ROWID;
 CREATE TABLE ideas (
   structure TEXT NOT NULL,         -- of structures, or of drawn
-  place INTEGER NOT NULL,          -- from 1, the cheapest first
-  adds TEXT NOT NULL,              -- which freedoms where: the joints named are in series
-  changes TEXT NOT NULL,           -- the first variant of the idea
+  place INTEGER NOT NULL,          -- from 1: symmetric ones first, then the cheapest, which is always among them
+  changes TEXT NOT NULL,           -- the first variant of the idea: jaw-a.link-1, jaw-b.link-3 -> spherical
   choices TEXT NOT NULL,           -- its options, joint by joint, 0 for the present one
   cost REAL NOT NULL,
   change_count INTEGER NOT NULL,

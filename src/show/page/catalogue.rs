@@ -46,7 +46,7 @@ const MORE: [(&str, &str, &str); 8] = [
 const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
      CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
      FROM drawn ORDER BY links, best_cost, id";
-const IDEAS: &str = "SELECT structure, place, adds, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
+const IDEAS: &str = "SELECT structure, place, changes, cost, change_count AS changed, CAST(variants AS TEXT) AS variants, peak_force, \
      peak_moment FROM ideas ORDER BY structure, place";
 const WITHOUT: &str = "SELECT no_layout AS why, count(*) AS n FROM structures WHERE no_layout IS NOT NULL GROUP BY 1 ORDER BY 2 DESC, 1";
 

@@ -68,6 +68,8 @@ fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
             number("determinate_w1"),
             "{id}"
         );
+        // Variants with W = 1 hold outputs and drives throughout the motion, so that all ideas do.
+        assert_eq!(found["lasting"], found["admissible"], "{id}");
         assert_eq!(
             found["by_mobility"]["1"].as_str().unwrap(),
             number("determinate_w1"),
@@ -170,6 +172,50 @@ fn areas_and_errors_are_in_millimetres() {
         let scores = evaluator.scores(&ideas[0].first, &mut Scratch::default());
         is("output_error", 1000.0 * scores.unwrap().output_error);
     }
+}
+
+/// Of one structure no two ideas change the same joints to the same types, nor are images of each other; those that are their own images
+/// come first, and the cheapest is among them.
+#[test]
+fn ideas_differ_and_symmetric_ones_come_first() {
+    let sql = "SELECT structure, mechanism, changes, cost, best_cost FROM ideas JOIN layouts USING (structure) JOIN structures ON id = structure \
+               WHERE symmetry IN ('mirror', 'half-turn') ORDER BY structure, place";
+    let rows = told(sql);
+    let (mut symmetric, mut other) = (0, 0);
+    for (_, ideas) in &rows.iter().chunk_by(|r| r["structure"].to_string()) {
+        let ideas: Vec<_> = ideas.collect();
+        let m = ozols::from_toml(ideas[0]["mechanism"].as_str().unwrap()).unwrap();
+        let image = |joint: &str| {
+            let of = m.joint_ids().find(|&j| m.joints[j].id == joint).unwrap();
+            m.joints[m.search.image(of)].id.clone()
+        };
+        let mut seen = BTreeSet::new();
+        let mut asymmetric = false;
+        for idea in &ideas {
+            let parts = idea["changes"].as_str().unwrap().split("; ");
+            let own: BTreeSet<(String, &str)> = parts
+                .flat_map(|part| {
+                    let (joints, to) = part.split_once(" -> ").unwrap();
+                    let to = to.trim_end_matches("-y");
+                    joints.split(", ").map(move |j| (j.to_owned(), to))
+                })
+                .collect();
+            let images: BTreeSet<_> = own.iter().map(|(j, to)| (image(j), *to)).collect();
+            assert!(!seen.contains(&own) && !seen.contains(&images), "{idea}");
+            assert!(own != images || !asymmetric, "{idea}");
+            asymmetric |= own != images;
+            *if own == images {
+                &mut symmetric
+            } else {
+                &mut other
+            } += 1;
+            seen.extend([own, images]);
+        }
+        let cheapest = ideas.iter().map(|i| i["cost"].as_f64().unwrap());
+        let cheapest = cheapest.fold(f64::INFINITY, f64::min);
+        assert_eq!(ideas[0]["best_cost"].as_f64(), Some(cheapest));
+    }
+    assert!(symmetric > 3 && other > 3, "{symmetric} {other}");
 }
 
 /// The only symmetry of a generic layout is none: every variant is its own image, and an orbit by itself.

@@ -186,6 +186,41 @@ fn filters_leave_what_is_as_good() {
     assert_eq!(both.status.code(), Some(2));
 }
 
+/// What does the task comes first, then the best of what is asked; forces are told by the input, and heads have units.
+#[test]
+fn answers_are_sorted_by_what_is_asked() {
+    let file = all_of_six();
+    for words in [&[][..], &["--transmission", "1"], &["--turn", "90"]] {
+        let found = rows(file, words);
+        let does: Vec<bool> = found.iter().map(|r| r["does_task"] == "yes").collect();
+        assert!(does.is_sorted_by(|a, b| a >= b), "{words:?}");
+        assert!(found.len() > 20, "{words:?}");
+        let of = |key: &str| -> Vec<f64> {
+            let first = found.iter().filter(|r| r["does_task"] == "yes");
+            first.map(|r| r[key].as_f64().unwrap()).collect()
+        };
+        match words.first() {
+            Some(&"--turn") => assert!(of("turn").is_sorted()),
+            Some(_) => assert!(of("transmission").is_sorted_by(|a, b| a >= b)),
+            None => assert!(of("links").is_sorted()),
+        }
+        for row in &found {
+            let slides = row["input"] == "slide";
+            assert_eq!(row["force_per_newton"].is_null(), !slides, "{row}");
+            assert_eq!(row["force_per_newton_metre"].is_null(), slides, "{row}");
+        }
+    }
+    let told = ok(&["catalog", "query", file]);
+    for head in [
+        "force [N/N]",
+        "force [N/Nm]",
+        "transmission [°]",
+        "does task",
+    ] {
+        assert!(told.contains(head), "{told}");
+    }
+}
+
 /// Where nothing holds all bounds, each that is in the way is named with what there is without it, and how near that comes.
 #[test]
 fn an_empty_answer_says_what_is_in_the_way() {

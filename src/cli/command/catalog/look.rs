@@ -15,23 +15,18 @@ use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
 use crate::synthesis::recognize::recognize;
 use crate::view::catalog::find::{FoundData, InCatalogue, found_text};
-use crate::view::catalog::structures::{QueryAnswer, StructureData, show_text};
+use crate::view::catalog::query::QueryAnswer;
+use crate::view::catalog::structures::{StructureData, show_text};
 use anyhow::{Context, ensure};
 use clap::{Args as ClapArgs, ValueHint};
 use std::path::{Path, PathBuf};
-
-/// The query that is used if none is given: the best of each kind first.
-const BEST: &str = "SELECT * FROM (SELECT id, links, input, symmetry AS layout, parallel, jaws, least_force AS force, \
-     redesigns AS determinate, cost, round(transmission) AS transmission FROM grippers \
-     UNION ALL SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, admissible, best_cost, NULL FROM drawn) \
-     ORDER BY links, layout = 'generic', parallel = 0, cost, transmission DESC, id LIMIT 25";
 
 #[derive(Debug, ClapArgs)]
 pub(in crate::cli) struct Query {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
-    /// Question in SQL [default: the best structures]. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
+    /// Question in SQL [default: the grippers that do the task first]. `ozols catalog query FILE "SELECT sql FROM sqlite_schema"` shows the
     /// tables with all columns explained.
     #[arg(conflicts_with_all = ["WantedGrippers"])]
     sql: Option<String>,
@@ -70,10 +65,10 @@ fn laid_out(store: &Store, file: &Path, id: &str) -> anyhow::Result<String> {
 pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let wanted = a.wanted.question();
-    let asked = a.sql.as_deref().or(wanted.as_deref());
-    let (names, rows) = store.query(asked.unwrap_or(BEST), None)?;
+    let asked = a.sql.as_ref().unwrap_or(&wanted);
+    let (names, rows) = store.query(asked, None)?;
     let answer = QueryAnswer { names, rows };
-    if answer.rows.is_empty() && wanted.is_some() {
+    if answer.rows.is_empty() && a.wanted.is_any() {
         output::note(&a.wanted.in_the_way(&store)?);
     }
     let path = a.output.as_deref();

@@ -35,6 +35,14 @@ pub(super) struct WantedGrippers {
     cost: Option<f64>,
 }
 
+/// What is told of each gripper. Forces for a newton and for a newton metre of the drive are no one figure.
+const COLUMNS: &str = "SELECT id, links, input, symmetry AS layout, jaws, iif(reached AND shortfall IS NULL, 'yes', 'no') AS does_task, \
+     iif(input = 'slide', least_force, NULL) AS force_per_newton, iif(input = 'turn', least_force, NULL) AS force_per_newton_metre, \
+     force_ratio, turn, transmission, pin_force, price, cost FROM grippers";
+/// The same of drawn mechanisms, by what is known of them.
+const DRAWN: &str = "SELECT id, links, input, name || iif(mode = 'planar', ' (planar)', ''), NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, \
+     NULL, best_cost FROM drawn";
+
 fn finite(word: &str) -> Result<f64, String> {
     let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
     number.ok_or_else(|| "give a number, such as 0.5".to_owned())
@@ -48,6 +56,8 @@ struct Filter {
     holds: String,
     /// The best existing value, in SQL and in words. `None` if the bound is not a number.
     best: Option<(String, String)>,
+    /// The column that answers are sorted by, the best first; nothing where it is no number.
+    sorted: Option<String>,
 }
 
 impl Filter {
@@ -56,14 +66,15 @@ impl Filter {
             option: option.to_owned(),
             holds: holds.to_owned(),
             best: None,
+            sorted: None,
         }
     }
 
     /// Returns the filter for a column that must be `>=` or `<=` a number.
     fn number(option: &str, column: &str, sign: &str, x: f64) -> Filter {
-        let (function, word) = match sign {
-            ">=" => ("max", "greatest"),
-            _ => ("min", "smallest"),
+        let (function, word, way) = match sign {
+            ">=" => ("max", "greatest", "DESC"),
+            _ => ("min", "smallest", "ASC"),
         };
         let name = option.trim_start_matches('-').replace('-', " ");
         Filter {
@@ -73,6 +84,7 @@ impl Filter {
                 format!("{function}({column})"),
                 format!("the {word} {name}"),
             )),
+            sorted: Some(format!("{column} {way}")),
         }
     }
 }
@@ -103,15 +115,26 @@ impl WantedGrippers {
         words.chain(numbers).collect()
     }
 
-    /// Returns the query for the grippers that meet all bounds, or `None` if no bound is given.
-    pub(super) fn question(&self) -> Option<String> {
-        let all = self.bounds().iter().map(|b| b.holds.as_str()).join(" AND ");
-        (!all.is_empty()).then(|| {
-            format!(
-                "SELECT id, links, input, symmetry AS layout, jaws, least_force, force_ratio, turn, transmission, pin_force, efficiency, \
-                 travel, width, height, planes, actuator, price, cost FROM grippers WHERE {all} ORDER BY links, least_force DESC, id"
-            )
-        })
+    /// Returns whether any filter is set.
+    pub(super) fn is_any(&self) -> bool {
+        !self.bounds().is_empty()
+    }
+
+    /// Returns the SQL that answers: the grippers within the bounds, what does the task first, then sorted by what is asked. Without
+    /// bounds the first 25 of all, and of the drawn mechanisms.
+    pub(super) fn question(&self) -> String {
+        let bounds = self.bounds();
+        let sorted = bounds.iter().filter_map(|b| b.sorted.as_deref());
+        let sorted: String = sorted.map(|s| format!("{s}, ")).collect();
+        let order = format!(
+            "ORDER BY coalesce(does_task = 'no', 0), {sorted}links, layout = 'generic', cost, transmission DESC, id"
+        );
+        if bounds.is_empty() {
+            format!("SELECT * FROM ({COLUMNS} UNION ALL {DRAWN}) {order} LIMIT 25")
+        } else {
+            let all = bounds.iter().map(|b| b.holds.as_str()).join(" AND ");
+            format!("{COLUMNS} WHERE {all} {order}")
+        }
     }
 
     /// Lists the bounds that exclude every gripper: the number of grippers without each bound, and how near they come to it.

@@ -97,11 +97,11 @@ function sight(c) {
 function ideaTable(c, pick) {
   const table = document.createElement('table'), body = document.createElement('tbody');
   const top = table.createTHead().insertRow();
-  for (const name of ['', 'cost', 'variants', 'adds']) top.append(text('th', name, name && name !== 'adds' ? { class: 'n' } : {}));
+  for (const name of ['', 'cost', 'variants', 'changes']) top.append(text('th', name, name && name !== 'changes' ? { class: 'n' } : {}));
   for (const idea of c.ideas) {
     const row = body.insertRow();
     row.tabIndex = 0;
-    row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', least(c) + grouped(idea.variants), { class: 'n' }), text('td', idea.adds));
+    row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', least(c) + grouped(idea.variants), { class: 'n' }), text('td', idea.changes));
     const chosen = () => {
       for (const other of body.rows) other.setAttribute('aria-selected', other === row);
       pick(idea);

@@ -2,88 +2,15 @@
 
 use crate::catalog::store::{Store, StoreError};
 use crate::format::plain::plain;
-use crate::format::{csv, grouped, plural_of, significant};
+use crate::format::{grouped, plural_of};
+use crate::terms::PairWords;
+use crate::view::catalog::query::{QueryAnswer, cell};
 use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
-use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// The answer to a question: as JSON a list of objects.
-#[derive(Debug, Clone)]
-pub struct QueryAnswer {
-    /// The columns.
-    pub names: Vec<String>,
-    /// The rows.
-    pub rows: Vec<Vec<Value>>,
-}
-
-impl Serialize for QueryAnswer {
-    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-        struct QueryRow<'a>(&'a [String], &'a [Value]);
-        impl Serialize for QueryRow<'_> {
-            fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-                let mut map = s.serialize_map(Some(self.0.len()))?;
-                for (name, value) in self.0.iter().zip(self.1) {
-                    map.serialize_entry(name, value)?;
-                }
-                map.end()
-            }
-        }
-        let mut list = s.serialize_seq(Some(self.rows.len()))?;
-        for row in &self.rows {
-            list.serialize_element(&QueryRow(&self.names, row))?;
-        }
-        list.end()
-    }
-}
-
-/// A value as it is.
-fn bare(value: &Value) -> String {
-    match value {
-        Value::Null => String::new(),
-        Value::String(s) => s.clone(),
-        other => other.to_string(),
-    }
-}
-
-/// A value for people.
-fn cell(value: &Value) -> String {
-    match value {
-        Value::Null => "-".to_owned(),
-        Value::Number(n) if n.is_f64() => significant(n.as_f64().unwrap_or(f64::NAN)),
-        Value::Number(n) => grouped(n),
-        // A count beyond 63 bits.
-        Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => grouped(s),
-        // The database may be anybody's.
-        Value::String(s) => plain(s).into_owned(),
-        other => other.to_string(),
-    }
-}
-
-impl QueryAnswer {
-    /// As a table for people.
-    #[must_use]
-    pub fn text(&self, width: Option<u16>) -> String {
-        let heads: Vec<_> = self.names.iter().map(|n| plain(n)).collect();
-        let heads: Vec<&str> = heads.iter().map(AsRef::as_ref).collect();
-        let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
-        format!("{}\n", table(&heads, rows.collect(), width))
-    }
-
-    /// As CSV, numbers as they are.
-    #[must_use]
-    pub fn csv(&self) -> String {
-        let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
-        csv::table(
-            &heads,
-            self.rows
-                .iter()
-                .map(|r| r.iter().map(bare).collect::<Vec<_>>()),
-        )
-    }
-}
 
 /// What a catalogue knows of a structure.
 #[derive(Debug, Clone, serde::Serialize)]
@@ -104,6 +31,21 @@ pub struct StructureData {
     pub counts: Vec<Map<String, Value>>,
     /// The rows of `ideas`.
     pub ideas: Vec<Map<String, Value>>,
+    /// The usual part that is such a joint, for each type that the ideas put in.
+    pub hardware: BTreeMap<String, String>,
+}
+
+/// Returns the usual part that is a joint of each of some types, by the names that ideas have.
+pub(crate) fn hardware<'a>(changes: impl Iterator<Item = &'a str>) -> BTreeMap<String, String> {
+    let words = PairWords::builtin();
+    let types = changes
+        .flat_map(|c| c.split("; "))
+        .filter_map(|c| c.split_once(" -> "));
+    let part = |(_, to): (&str, &str)| {
+        let pair = words.get(to.trim_end_matches("-y"))?;
+        Some((to.to_owned(), pair.hardware.first()?.clone()))
+    };
+    types.filter_map(part).collect()
 }
 
 impl StructureData {
@@ -119,7 +61,10 @@ impl StructureData {
         };
         let mut structure = maps("SELECT * FROM structures WHERE id = ?1")?;
         structure.extend(maps("SELECT * FROM drawn WHERE id = ?1")?);
+        let ideas = maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?;
+        let changes = ideas.iter().filter_map(|i| i.get("changes")?.as_str());
         Ok(StructureData {
+            hardware: hardware(changes),
             structure: structure.pop().unwrap_or_default(),
             pairs: maps("SELECT * FROM pairs WHERE structure = ?1")?.pop(),
             classics: maps("SELECT * FROM classics WHERE structure = ?1 ORDER BY id")?,
@@ -127,7 +72,7 @@ impl StructureData {
             stroke: maps("SELECT * FROM strokes WHERE structure = ?1")?.pop(),
             planes: maps("SELECT * FROM planes WHERE structure = ?1")?.pop(),
             counts: maps("SELECT * FROM counts WHERE structure = ?1 ORDER BY mobility, changes")?,
-            ideas: maps("SELECT * FROM ideas WHERE structure = ?1 ORDER BY place")?,
+            ideas,
         })
     }
 }
@@ -350,15 +295,14 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
         return head;
     }
     let s = of(&d.structure);
-    let heads = ["", "cost", "changes", "variants", "force", "moment", "adds"];
+    let heads = ["", "cost", "variants", "force", "moment", "changes"];
     let keys = [
         "place",
         "cost",
-        "change_count",
         "variants",
         "peak_force",
         "peak_moment",
-        "adds",
+        "changes",
     ];
     let row = |i: &Map<String, Value>| {
         keys.iter()
@@ -374,15 +318,17 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
         0 => String::new(),
         n => {
             let which = if n == 1 {
-                "The cheapest idea".to_owned()
+                "The first idea".to_owned()
             } else {
-                format!("The {n} cheapest ideas")
+                format!("The {n} first ideas, symmetric ones before others")
             };
             let line = format!(
                 "{which}{found}; each stands for {least}as many variants, of which the first is exported:\n"
             );
             let ideas = table(&heads, d.ideas.iter().map(row).collect(), width);
-            format!("{}\n{ideas}\n", fit(&line, width))
+            let mut parts = d.hardware.iter().map(|(to, part)| format!("{to}: {part}"));
+            let parts = format!("\nHardware: {}\n", parts.join("; "));
+            format!("{}\n{ideas}\n{}", fit(&line, width), fit(&parts, width))
         }
     };
     let next = format!(

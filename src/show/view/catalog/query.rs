@@ -1,0 +1,108 @@
+//! Answers to questions in SQL: as a table for people, whose heads have units, as JSON and as CSV.
+
+use crate::format::plain::plain;
+use crate::format::{csv, grouped, significant};
+use crate::view::terminal::layout::table;
+use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde_json::Value;
+
+/// The answer to a question: as JSON a list of objects.
+#[derive(Debug, Clone)]
+pub struct QueryAnswer {
+    /// The columns.
+    pub names: Vec<String>,
+    /// The rows.
+    pub rows: Vec<Vec<Value>>,
+}
+
+impl Serialize for QueryAnswer {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        struct QueryRow<'a>(&'a [String], &'a [Value]);
+        impl Serialize for QueryRow<'_> {
+            fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+                let mut map = s.serialize_map(Some(self.0.len()))?;
+                for (name, value) in self.0.iter().zip(self.1) {
+                    map.serialize_entry(name, value)?;
+                }
+                map.end()
+            }
+        }
+        let mut list = s.serialize_seq(Some(self.rows.len()))?;
+        for row in &self.rows {
+            list.serialize_element(&QueryRow(&self.names, row))?;
+        }
+        list.end()
+    }
+}
+
+/// A value as it is.
+fn bare(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(s) => s.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// A value for people.
+pub(super) fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => "-".to_owned(),
+        Value::Number(n) if n.is_f64() => significant(n.as_f64().unwrap_or(f64::NAN)),
+        Value::Number(n) => grouped(n),
+        // A count beyond 63 bits.
+        Value::String(s) if s.len() > 18 && s.bytes().all(|b| b.is_ascii_digit()) => grouped(s),
+        // The database may be anybody's.
+        Value::String(s) => plain(s).into_owned(),
+        other => other.to_string(),
+    }
+}
+
+/// Units of the columns that have one.
+const UNITS: [(&str, &str); 13] = [
+    ("force_per_newton", "N/N"),
+    ("force_per_newton_metre", "N/Nm"),
+    ("narrowest", "mm"),
+    ("widest", "mm"),
+    ("turn", "°"),
+    ("jaw_turn", "°"),
+    ("transmission", "°"),
+    ("pin_force", "N/N"),
+    ("width", "mm"),
+    ("height", "mm"),
+    ("actuator", "N mm"),
+    ("price", "hinges"),
+    ("cost", "hinges"),
+];
+
+/// Returns the head of a column: its name in words, and its unit.
+fn head(name: &str) -> String {
+    let words = plain(name).replace('_', " ");
+    let unit = UNITS.iter().find(|(column, _)| *column == name);
+    let Some((_, unit)) = unit else { return words };
+    let (what, _) = words.split_once(" per ").unwrap_or((&words, ""));
+    format!("{what} [{unit}]")
+}
+
+impl QueryAnswer {
+    /// As a table for people.
+    #[must_use]
+    pub fn text(&self, width: Option<u16>) -> String {
+        let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
+        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+        let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
+        format!("{}\n", table(&heads, rows.collect(), width))
+    }
+
+    /// As CSV, numbers as they are.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        csv::table(
+            &heads,
+            self.rows
+                .iter()
+                .map(|r| r.iter().map(bare).collect::<Vec<_>>()),
+        )
+    }
+}
