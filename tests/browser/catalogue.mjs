@@ -42,7 +42,7 @@ export function catalogueTests(test) {
       await tab.click("#filters summary");
       await tab.fill("#cost", "0.5");
       await tab.waitForFunction(() => document.querySelectorAll("#cards .card").length === 0);
-      assert.match(await tab.locator("#count").innerText(), /^None of \d+ grippers is like that: without “Cost at most” 2\.$/);
+      assert.match(await tab.locator("#count").innerText(), /^None of \d+ grippers is like that: without “Redesign cost at most \(hinges\)” 2\.$/);
       await tab.fill("#turn", "0");
       await tab.waitForFunction(() => /more than one filter is in the way/.test(document.getElementById("count").textContent));
       await tab.click("#filters button[type=reset]");
@@ -110,7 +110,7 @@ export function catalogueTests(test) {
         await tab.keyboard.press("Tab");
         assert.ok(await cards(tab).nth(before).evaluate((e) => e === document.activeElement));
         await tab.keyboard.press("Enter");
-        assert.ok(await tab.locator("#chosen").isVisible());
+        await tab.locator("#chosen").waitFor();
         await tab.keyboard.press("Escape");
         done = await work(tab);
         assert.equal(done.made + done.anew, 0, "a choice redraws no card");
@@ -130,7 +130,7 @@ export function catalogueTests(test) {
         await first.focus();
         await tab.keyboard.press("Enter");
         const chosen = tab.locator("#chosen");
-        assert.ok(await chosen.isVisible());
+        await chosen.waitFor();
         const idea = chosen.locator("tbody tr").first();
         await idea.focus();
         await tab.keyboard.press("Enter");
@@ -190,17 +190,18 @@ export function catalogueTests(test) {
   test("a gripper is saved from the page, and kept beside another", async () => {
     await open(file, {}, async (tab) => {
       await cards(tab).first().click();
-      const id = await tab.locator("#chosen-name").innerText();
-      for (const [name, holds] of [[`${id}.toml`, /\[\[joint\]\]/], [`${id}.xml`, /^<mujoco [^]*<\/mujoco>\s*$/], [`${id}.svg`, /^<svg(?![^]*var\()[^]*\.gripper/]]) {
-        const [file] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("link", { name }).click()]);
-        assert.equal(file.suggestedFilename(), name);
+      const id = await cards(tab).first().getAttribute("data-id");
+      const name = await tab.locator("#chosen-name").innerText();
+      for (const [saved, holds] of [[`${id}.toml`, /\[\[joint\]\]/], [`${id}.xml`, /^<mujoco [^]*<\/mujoco>\s*$/], [`${id}.svg`, /^<svg(?![^]*var\()[^]*\.gripper/]]) {
+        const [file] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("link", { name: saved }).click()]);
+        assert.equal(file.suggestedFilename(), saved);
         assert.match(readFileSync(await file.path(), "utf8"), holds);
       }
       await tab.getByRole("button", { name: "Keep to compare" }).click();
       await tab.keyboard.press("Escape");
       await cards(tab).nth(1).click();
       const heads = await tab.locator("#chosen .beside thead th").allInnerTexts();
-      assert.deepEqual(heads.slice(1), [await tab.locator("#chosen-name").innerText(), id]);
+      assert.deepEqual(heads.slice(1), [await tab.locator("#chosen-name").innerText(), name]);
       assert.equal(await tab.locator("#chosen svg.gripper").count(), 2);
       await fits(tab);
       await picture(tab, "catalogue-beside", false);

@@ -6,6 +6,7 @@ import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
+import { deflateSync, inflateSync } from "node:zlib";
 
 export const root = path.resolve(import.meta.dirname, "../..");
 const target = path.resolve(root, process.env.CARGO_TARGET_DIR ?? "target");
@@ -37,12 +38,13 @@ export function multiplied(file, count) {
   const end = html.indexOf("</script>", begin);
   assert.ok(before > 0 && end > begin);
   const data = JSON.parse(html.slice(begin, end));
-  const own = data.cards;
-  data.cards = Array.from({ length: count }, (_, i) => ({
-    ...own[i % own.length],
-    id: `${own[i % own.length].id}-${i}`,
-    force_min: ((i * 7919) % count) / 100,
-  }));
+  const unpacked = (list) => JSON.parse(inflateSync(Buffer.from(list, "base64")));
+  const packed = (list) => deflateSync(JSON.stringify(list)).toString("base64");
+  const [own, chosen] = [unpacked(data.cards), data.chosen.flatMap(unpacked)];
+  const each = Array.from({ length: count }, (_, i) => i % own.length);
+  data.cards = packed(each.map((k, i) => ({ ...own[k], id: `${own[k].id}-${i}`, force_min: ((i * 7919) % count) / 100 })));
+  const parts = Array.from({ length: Math.ceil(count / data.together) }, (_, p) => each.slice(p * data.together, (p + 1) * data.together));
+  data.chosen = parts.map((part) => packed(part.map((k) => chosen[k])));
   const many = file.replace(".html", `-${count}.html`);
   writeFileSync(many, html.slice(0, begin) + JSON.stringify(data).replaceAll("<", "\\u003c") + html.slice(end));
   return many;
@@ -69,6 +71,8 @@ export async function open(file, options, use) {
   });
   const begun = performance.now();
   await tab.goto(address);
+  // The cards of a catalogue are unpacked.
+  if (await tab.locator("#cards").count()) await tab.locator("#cards .card").first().waitFor();
   const took = Math.round(performance.now() - begun);
   await use(tab, took);
   assert.deepEqual(noise, [], file);

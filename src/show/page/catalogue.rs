@@ -6,8 +6,13 @@ use super::policy::{self, POLICY, STYLE};
 use crate::catalog::store::{Store, StoreError};
 use crate::file::text::mechanism_from_str;
 use crate::robots::formats;
+use crate::view::catalog::structures::hardware;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use maud::{DOCTYPE, PreEscaped, html};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
 const CARDS: &str = include_str!("catalogue.css");
@@ -30,18 +35,29 @@ const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
      CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, price, actuator, id IN (SELECT id FROM front) AS front, \
      (SELECT group_concat(c.id, ', ') FROM classics c WHERE c.structure = structures.id) AS classics FROM structures JOIN layouts l ON l.structure = id \
-     JOIN (SELECT id AS gripper, price, actuator FROM grippers) ON gripper = id LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
-/// Filters that are asked less often: id, label and step.
-const MORE: [(&str, &str, &str); 8] = [
-    ("pin", "Joint force at most", "any"),
-    ("efficiency", "Efficiency from", "0.05"),
-    ("stroke", "Stroke from", "5"),
-    ("travel", "Travel at most", "any"),
-    ("actuator", "Actuator at most", "any"),
-    ("width", "Width at most", "5"),
-    ("height", "Height at most", "5"),
-    ("cost", "Cost at most", "0.5"),
+     JOIN (SELECT id AS gripper, price, actuator FROM grippers) ON gripper = id LEFT JOIN strokes k ON k.structure = id LEFT JOIN planes b ON b.structure = id ORDER BY k.reached = 1 AND k.shortfall IS NULL DESC, structures.links, symmetry = 'generic', parallel = 0, best_cost, crossings, transmission DESC, id";
+/// Filters that are asked often: id, label, step and the greatest value.
+const OFTEN: [(&str, &str, &str, &str); 6] = [
+    ("force", "Jaw force at least (N per N, N per Nm)", "any", ""),
+    ("ratio", "Greatest over least jaw force, at most", "0.5", ""),
+    ("transmission", "Transmission angle at least (°)", "5", "90"),
+    ("turn", "Jaw rotation at most (°)", "5", ""),
+    ("planes", "Link planes at most", "1", ""),
+    ("price", "Price at most (hinges)", "0.5", ""),
 ];
+/// Filters that are asked less often.
+const MORE: [(&str, &str, &str, &str); 8] = [
+    ("pin", "Joint force at most (N per N)", "any", ""),
+    ("efficiency", "Efficiency at least", "0.05", "1"),
+    ("stroke", "Opening stroke at least (mm)", "5", ""),
+    ("travel", "Drive travel at most (mm, rad)", "any", ""),
+    ("actuator", "Drive work at most (N mm)", "any", ""),
+    ("width", "Width at most (mm)", "5", ""),
+    ("height", "Height at most (mm)", "5", ""),
+    ("cost", "Redesign cost at most (hinges)", "0.5", ""),
+];
+/// Grippers whose files and ideas are unpacked together.
+const TOGETHER: usize = 64;
 /// What a card of a drawn mechanism is made of.
 const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
      CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
@@ -56,8 +72,9 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
     Ok(rows.into_iter().map(map).collect())
 }
 
-/// The data of the cards: each structure with a layout and each drawn mechanism, with its drawing and its ideas.
-fn cards(store: &Store) -> Result<Vec<Map<String, Value>>, StoreError> {
+/// Returns each structure with a layout and each drawn mechanism: the data of its card, and what is told of it once it is chosen, its
+/// files and ideas.
+fn cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
     let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
     for mut idea in maps(store, IDEAS)? {
         if let Some(Value::String(of)) = idea.remove("structure") {
@@ -66,32 +83,44 @@ fn cards(store: &Store) -> Result<Vec<Map<String, Value>>, StoreError> {
     }
     let mut cards = Vec::new();
     for mut card in maps(store, CARD)?.into_iter().chain(maps(store, DRAWN)?) {
-        let mechanism = card.get("mechanism").cloned();
+        let text = card.remove("mechanism");
         let id = card.get("id").and_then(Value::as_str).unwrap_or_default();
         let of = ideas.remove(id).unwrap_or_default();
-        let mechanism = mechanism.as_ref().and_then(Value::as_str);
+        let mechanism = text.as_ref().and_then(Value::as_str);
         let mechanism = mechanism.and_then(|m| mechanism_from_str("mechanism.toml", m).ok());
         let drawn = mechanism.as_ref().and_then(drawing);
         let mjcf = mechanism.and_then(|m| formats::write(&m, "mjcf").ok());
-        card.insert("mjcf".to_owned(), mjcf.into());
-        card.insert(
-            "ideas".to_owned(),
-            of.into_iter().map(Value::Object).collect(),
-        );
+        let ideas: Value = of.into_iter().map(Value::Object).collect();
         card.insert("drawing".to_owned(), drawn.unwrap_or_default());
-        cards.push(card);
+        let chosen = json!({ "mechanism": text, "mjcf": mjcf, "ideas": ideas });
+        cards.push((Value::Object(card), chosen));
     }
     Ok(cards)
 }
 
-/// What the script is given, to stand in the page.
-fn data(file: &str, cards: Vec<Map<String, Value>>) -> String {
-    let cards = cards.into_iter().map(Value::Object).collect();
-    let data = Map::from_iter([
-        ("file".to_owned(), file.into()),
-        ("cards".to_owned(), cards),
-    ]);
-    escaped(&Value::Object(data).to_string())
+/// Returns a value deflated, in base64: the script unpacks it.
+///
+/// # Panics
+/// Never: a list takes all that is written.
+fn packed(value: &[Value]) -> String {
+    let mut out = ZlibEncoder::new(Vec::new(), Compression::default());
+    serde_json::to_writer(&mut out, value).expect("a list takes all");
+    STANDARD.encode(out.finish().expect("a list takes all"))
+}
+
+/// Returns what the script is given, to stand in the page: the cards, apart from them what is unpacked once a card is chosen, and the
+/// parts that are such joints as ideas put in.
+fn data(file: &str, cards: Vec<(Value, Value)>, hardware: &BTreeMap<String, String>) -> String {
+    let (cards, chosen): (Vec<Value>, Vec<Value>) = cards.into_iter().unzip();
+    let chosen: Vec<String> = chosen.chunks(TOGETHER).map(packed).collect();
+    let data = json!({
+        "file": file,
+        "together": TOGETHER,
+        "cards": packed(&cards),
+        "chosen": chosen,
+        "hardware": hardware,
+    });
+    escaped(&data.to_string())
 }
 
 fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
@@ -124,7 +153,9 @@ pub fn catalogue(store: &Store, file: &str) -> Result<String, StoreError> {
         .filter_map(|w| w.get("n").and_then(Value::as_u64))
         .sum();
     let count = cards.len();
-    let data = data(file, cards);
+    let (_, changes) = store.query("SELECT DISTINCT changes FROM ideas", None)?;
+    let changes = changes.iter().filter_map(|row| row.first()?.as_str());
+    let data = data(file, cards, &hardware(changes));
     let title = "Grippers by structure";
     let page = html! {
         (DOCTYPE)
@@ -178,32 +209,30 @@ fn filters() -> maud::Markup {
             }
         }
     };
+    let number = |(id, label, step, most): &(&str, &str, &str, &str)| {
+        html! {
+            label { (label) " " input type="number" id=(id) min="0" max=[Some(most).filter(|m| !m.is_empty())] step=(step) inputmode="decimal"; }
+        }
+    };
     html! {
         form id="filters" aria-label="Filter the grippers" {
-            label { "Links " select id="links" { option value="" { "all" } } }
+            label { input type="checkbox" id="does"; " Does the task" }
+            label { "Number of links " select id="links" { option value="" { "all" } } }
             (select("input", "Driver", &[("", "all"), ("slide", "slides"), ("turn", "turns")]))
-            (select("symmetry", "Layout", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
+            (select("symmetry", "Symmetry", &[("", "all"), ("mirror", "mirror image"), ("half-turn", "half turn"), ("threefold", "threefold"), ("generic", "generic"), ("drawn", "drawn")]))
             (select("sides", "Number of jaws", &[("", "all"), ("2", "2"), ("3", "3")]))
-            (select("jaws", "Jaws", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
-            label { "Price at most " input type="number" id="price" min="0" step="0.5" inputmode="decimal"; }
-            label { "Transmission angle from " input type="number" id="transmission" min="0" max="90" step="5" inputmode="numeric"; }
-            label { "Least force from " input type="number" id="force" min="0" step="any" inputmode="decimal"; }
-            label { "Forces 1 to at most " input type="number" id="ratio" min="1" step="0.5" inputmode="decimal"; }
-            label { "Turn of the jaws at most " input type="number" id="turn" min="0" step="5" inputmode="numeric"; }
-            label { "Planes at most " input type="number" id="planes" min="2" step="1" inputmode="numeric"; }
+            (select("jaws", "Jaw motion", &[("", "all"), ("parallel", "parallel"), ("swinging", "swinging"), ("floating", "floating")]))
+            @for one in &OFTEN { (number(one)) }
             details {
-                summary { "More" }
-                @for (id, label, step) in MORE {
-                    label { (label) " " input type="number" id=(id) min="0" step=(step) inputmode="decimal"; }
-                }
+                summary { "More filters" }
+                @for one in &MORE { (number(one)) }
+                label { input type="checkbox" id="front"; " Best compromises: no other gripper is as good in every figure and better in one" }
             }
-            label { input type="checkbox" id="does"; " Only those that do the task" }
-            label { input type="checkbox" id="front"; " Only those that no other beats" }
-            label { "Find " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="id, chain or scheme"; }
-            (select("sort", "First", &[
-                ("", "fewest links, symmetric"), ("price", "lowest price"), ("best_cost", "least cost"), ("actuator", "smallest actuator"), ("force_min", "greatest least force"),
-                ("transmission", "best transmission angle"), ("pin_force", "least joint force"), ("jaw_turn", "least turn"), ("planes", "fewest planes"),
-                ("determinate_w1", "most redesigns"), ("link_ratio", "most even links"),
+            label { "Search " input type="search" id="find" autocomplete="off" spellcheck="false" placeholder="scheme, id or chain"; }
+            (select("sort", "Sort by", &[
+                ("", "task done, fewest links"), ("force_min", "greatest jaw force"), ("transmission", "best transmission angle"), ("pin_force", "least joint force"),
+                ("jaw_turn", "least jaw rotation"), ("price", "lowest price"), ("best_cost", "cheapest redesign"), ("determinate_w1", "most redesigns"),
+                ("actuator", "least drive work"), ("planes", "fewest link planes"), ("link_ratio", "most equal link lengths"),
             ]))
             button type="reset" { "Show all" }
         }

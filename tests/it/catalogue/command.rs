@@ -1,6 +1,10 @@
 //! `ozols catalog build`, `query`, `show`, `export`, `merge` and `page` as commands.
 
 use crate::common::{ozols, run, text};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::read::ZlibDecoder;
+use serde_json::Value;
 use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
@@ -22,6 +26,25 @@ pub(super) fn fails(args: &[&str], says: &str) {
         (Some(2), true),
         "{args:?}: {told}"
     );
+}
+
+/// What the script of a page is given.
+pub(super) fn script_data(html: &str) -> Value {
+    let (_, after) = html
+        .split_once("<script id=\"data\" type=\"application/json\">")
+        .unwrap();
+    serde_json::from_str(after.split_once("</script>").unwrap().0).unwrap()
+}
+
+/// A list that stands in a page deflated, in base64.
+pub(super) fn unpacked(list: &Value) -> Vec<Value> {
+    let bytes = STANDARD.decode(list.as_str().unwrap()).unwrap();
+    serde_json::from_reader(ZlibDecoder::new(&bytes[..])).unwrap()
+}
+
+/// The cards of a page.
+pub(super) fn cards_of(html: &str) -> Vec<Value> {
+    unpacked(&script_data(html)["cards"])
 }
 
 /// All that a catalogue holds, table by table, in order.
@@ -123,10 +146,23 @@ fn it_is_queried_shown_exported_and_drawn() {
     let page = at(&folder, "g.html");
     ok(&["catalog", "page", &db, "-o", &page]);
     let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains("Content-Security-Policy") && !html.contains("http://localhost"));
+    let cards = cards_of(&html);
+    let card = cards.iter().find(|c| c["id"] == *id).unwrap();
     assert!(
-        html.contains(id)
-            && html.contains("Content-Security-Policy")
-            && !html.contains("http://localhost")
+        card["drawing"]["pins"].is_array() && card.get("ideas").is_none(),
+        "{card}"
+    );
+    // Files and ideas stand apart, in the order of the cards.
+    let data = script_data(&html);
+    let chosen = unpacked(&data["chosen"][0]);
+    let place = cards.iter().position(|c| c["id"] == *id).unwrap();
+    assert_eq!(chosen[place]["ideas"].as_array().unwrap().len(), 3);
+    assert!(
+        chosen[place]["mechanism"]
+            .as_str()
+            .unwrap()
+            .contains("[[joint]]")
     );
     let csv = ok(&[
         "catalog",
@@ -301,11 +337,8 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     assert_eq!(analysed["states"][0]["redundant"], 0, "{analysed}");
     let page = at(&folder, "page.html");
     ok(&["catalog", "page", &merged, "-o", &page]);
-    assert!(
-        std::fs::read_to_string(&page)
-            .unwrap()
-            .contains("\"name\":\"tongs\"")
-    );
+    let cards = cards_of(&std::fs::read_to_string(&page).unwrap());
+    assert!(cards.iter().any(|c| c["name"] == "tongs"));
 }
 
 /// Balls alone make no four-bar determinate, which needs a slide along its hinges: one in series with a hinge, on a link of its

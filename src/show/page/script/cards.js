@@ -1,5 +1,6 @@
 // The cards: filtered, sorted, a page of them at a time.
-const data = JSON.parse(document.getElementById('data').textContent);
+const packed = JSON.parse(document.getElementById('data').textContent);
+const data = { file: packed.file, cards: [] };
 const by = (id) => document.getElementById(id);
 const STEP = 60;
 const BIGGEST_FIRST = ['force_min', 'transmission', 'determinate_w1'];
@@ -10,6 +11,20 @@ function grouped(digits) {
 
 function short(x) {
   return x === null || x === undefined ? '–' : String(+Number(x).toPrecision(3));
+}
+
+/** A list that stands in the page deflated, in base64. */
+function unpacked(list) {
+  const bytes = Uint8Array.from(atob(list), (c) => c.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).json();
+}
+
+/** Gives a card its files and ideas, those of the cards beside it, too. */
+async function complete(c) {
+  if (c.ideas) return;
+  const first = c.place - (c.place % packed.together);
+  const all = await unpacked(packed.chosen[first / packed.together]);
+  all.forEach((chosen, i) => Object.assign(data.cards[first + i], chosen));
 }
 
 function text(name, content, attributes) {
@@ -25,16 +40,28 @@ const jawsOf = (c) => [...new Set(motions(c))].join(' and ');
 const unit = (c) => (c.input === 'slide' ? 'N per N' : 'N per Nm');
 const formOf = (c) => c.drawn ? `drawn (${c.mode}), ${c.contours} contours${c.input ? ', driver ' + c.input + 's' : ''}` : `${c.input === 'slide' ? 'sliding' : 'turning'} driver, ${c.symmetry}${c.parallel ? ', parallelograms' : ''}`;
 
+const does = (c) => c.reached === 1 && !c.shortfall;
+
+/** The scheme's name, the mechanism's, or links, driver and jaws. */
+function titleOf(c) {
+  if (c.drawn) return c.name;
+  const [scheme] = (c.classics || '').split(', ');
+  const title = scheme ? scheme.replaceAll('-', ' ') : `${c.links} links, driver ${c.input}s, jaws ${jawsOf(c)}`;
+  return (title + (c.jaw_c_motion ? ', three jaws' : '')).replace(/^./, (first) => first.toUpperCase());
+}
+
 function cardOf(c) {
   const item = document.createElement('li');
   const button = text('button', '', { class: 'card', type: 'button', 'data-id': c.id });
+  const task = does(c) ? 'Does the task' : c.shortfall;
   button.append(
-    gripper(c, `Gripper ${c.drawn ? c.name : c.id}`),
-    text('b', c.drawn ? c.name : c.id),
-    ...(c.classics ? [text('span', `${c.jaw_c_motion ? 'with two jaws ' : ''}known as ${c.classics}`)] : []),
-    text('span', `${c.links} links, ${formOf(c)}`),
-    text('span', c.drawn ? c.description : `${c.jaw_c_motion ? 'three jaws' : 'jaws'} ${jawsOf(c)}, ${short(c.force_min)} ${unit(c)} at least`),
-    text('span', `W ${c.mobility}, σ ${c.redundant}; ${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
+    gripper(c, titleOf(c)),
+    text('b', titleOf(c)),
+    ...(c.drawn ? [] : [text('span', task, { class: does(c) ? 'does' : 'lacks' })]),
+    text('span', c.drawn || c.classics ? `${c.links} links, ${formOf(c)}` : `${c.symmetry} layout${c.parallel ? ', parallelograms' : ''}`),
+    text('span', c.drawn ? c.description : `${c.classics ? `jaws ${jawsOf(c)}, ` : ''}${short(c.force_min)} ${unit(c)} at least, transmission angle from ${short(c.transmission)}°`),
+    text('span', `${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
+    text('span', c.id),
   );
   button.addEventListener('click', () => choose(c, button));
   movesWhenMet(button, c);
@@ -66,7 +93,7 @@ const FILTERS = {
   ratio: number((c, v) => !c.drawn && c.force_max <= v * c.force_min),
   turn: number((c, v) => !c.drawn && c.jaw_turn <= v),
   planes: number((c, v) => c.planes > 0 && c.planes <= v),
-  does: (c) => c.reached === 1 && !c.shortfall,
+  does,
   front: (c) => c.front === 1,
   find: (c, v) => c.name.toLowerCase().includes(v) || c.id.includes(v) || (c.classics || '').includes(v),
 };
@@ -119,7 +146,12 @@ function show() {
     : `None of ${grouped(n)} grippers is like that: ${inTheWay(asked)}.`;
 }
 
-for (const n of [...new Set(data.cards.map((c) => c.links))]) by('links').append(text('option', n, { value: n }));
+unpacked(packed.cards).then((cards) => {
+  cards.forEach((c, place) => Object.assign(c, { place }));
+  data.cards = cards;
+  for (const n of [...new Set(cards.map((c) => c.links))].sort((a, b) => a - b)) by('links').append(text('option', n, { value: n }));
+  show();
+});
 let pending = 0;
 by('filters').addEventListener('input', () => { clearTimeout(pending); pending = setTimeout(show, 120); });
 by('filters').addEventListener('reset', () => setTimeout(show));

@@ -12,7 +12,7 @@ function figuresOf(c) {
   const drive = c.input === 'slide' ? 'mm' : 'rad';
   const ends = [['closing', c.ends_closing], ['opening', c.ends_opening]].filter((e) => e[1]).map((e) => `${e[0]}: ${e[1]}`);
   const rows = c.drawn ? [['Mechanism', c.name], ['', c.description], ['Form', `${c.links} links, ${c.joints} joints, ${formOf(c)}`]] : [
-    ['Structure', c.name],
+    ['Structure', `${c.id}: ${c.name}`],
     ...(c.classics ? [[c.jaw_c_motion ? 'With two jaws known as' : 'Known as', c.classics]] : []),
     ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}${c.drawing && c.drawing.folded ? '; of three sides two are drawn, opposite each other' : ''}`],
     ['Jaws', `${jawsOf(c)}; they turn by ${short(c.jaw_turn)}° at most`],
@@ -46,7 +46,7 @@ function figureTable(c) {
   }
   const other = new Map(figuresOf(kept)), mine = new Map(own), names = [...new Set([...mine.keys(), ...other.keys()])];
   const table = document.createElement('table'), head = table.createTHead().insertRow(), body = table.createTBody();
-  head.append(text('th', ''), text('th', c.id, { scope: 'col' }), text('th', kept.id, { scope: 'col' }));
+  head.append(text('th', ''), text('th', titleOf(c), { scope: 'col' }), text('th', titleOf(kept), { scope: 'col' }));
   for (const name of names) {
     const row = body.insertRow();
     row.append(text('th', name, { scope: 'row' }), text('td', mine.get(name) || '–'), text('td', other.get(name) || '–'));
@@ -67,12 +67,26 @@ function keeping(c, anew) {
   return button;
 }
 
+/** The force of a jaw over the stroke, from open to closed: work in is work out, so that it is the drive's travel by the opening's. */
+function forceChart(c, frames) {
+  const widths = frames.map((f) => opening(c.drawing, f.tips) / c.drawing.scale), jaws = c.jaw_c_motion ? 3 : 2;
+  const step = ((c.drawing.slides ? 1 : 1000) * c.travel) / STEPS;
+  const forces = widths.slice(1).map((w, i) => (2 * step) / jaws / Math.abs(w - widths[i])), most = Math.max(...forces);
+  const at = (f, i) => [8 + (204 * i) / (forces.length - 1), 52 - (44 * f) / most];
+  const words = `Jaw force from open to closed: ${short(c.force_min)} to ${short(c.force_max)} ${unit(c)}`;
+  const lines = [element('path', { class: 'guide', d: path([[8, 52], [212, 52]]) }), element('path', { class: 'drive', d: path(forces.map(at)) })];
+  const chart = element('svg', { class: 'gripper chart', viewBox: '0 0 220 60', role: 'img' }, [element('title', {}, [words]), ...lines]);
+  const figure = document.createElement('figure');
+  figure.append(chart, text('figcaption', words, { class: 'help' }));
+  return figure;
+}
+
 /** The drawing of what is chosen, with how far it is open. */
 function sight(c) {
   const figure = document.createElement('div'), frames = framesOf(c);
   let idea = null, frame;
   const draw = () => {
-    const title = `Gripper ${c.id}${idea ? ', idea ' + idea.place : ''}`;
+    const title = `${titleOf(c)}${idea ? ', idea ' + idea.place : ''}`;
     const picture = gripper(c, title, idea ? changesOf(idea) : [], frame);
     const old = figure.querySelector('svg');
     if (old) old.replaceWith(picture); else figure.prepend(picture);
@@ -88,7 +102,7 @@ function sight(c) {
     const label = document.createElement('label');
     label.className = 'stroke';
     label.append('open', range, 'closed');
-    figure.append(label);
+    figure.append(label, forceChart(c, frames));
   }
   return { figure, show: (chosen) => { idea = chosen; draw(); } };
 }
@@ -123,35 +137,36 @@ function tell(c) {
   close.addEventListener('click', () => dialog.close());
   const buttons = document.createElement('div');
   buttons.append(keeping(c, () => { tell(c); dialog.querySelector('button').focus(); }), ' ', close);
-  head.append(text('h2', c.id, { id: 'chosen-name' }), buttons);
+  head.append(text('h2', titleOf(c), { id: 'chosen-name' }), buttons);
   const { figure, show } = sight(c), two = document.createElement('div');
   two.className = 'two';
   two.append(figure, figureTable(c));
-  if (kept && kept !== c) figure.append(text('p', `Beside ${kept.id}:`, { class: 'help' }), gripper(kept, `Gripper ${kept.id}`));
+  if (kept && kept !== c) figure.append(text('p', `Beside ${titleOf(kept)}:`, { class: 'help' }), gripper(kept, titleOf(kept)));
   dialog.replaceChildren(head, two);
   const commands = text('pre', '');
   const command = (idea) => {
     const k = idea ? ` --idea ${idea.place}` : '';
-    commands.textContent = `ozols catalog export ${data.file} ${c.id}${k} -o gripper.toml\nozols report gripper.toml -o gripper.html`;
+    commands.textContent = `ozols catalog export ${data.file} ${c.id}${k} -o gripper.toml\nozols studio gripper.toml\nozols report gripper.toml -o gripper.html`;
   };
   command(null);
   if (c.ideas.length) {
     dialog.append(
-      text('h3', 'The cheapest ideas'),
+      text('h3', 'Redesigns without redundant constraints, symmetric ones first'),
       text('p', 'Each stands for as many variants as share out the same freedoms among joints in series; choose one to see it carried out.', { class: 'help' }),
       ideaTable(c, (idea) => { show(idea); command(idea); }),
     );
+    const types = [...new Set(c.ideas.flatMap(changesOf).map(([, to]) => to))].filter((to) => packed.hardware[to]);
+    dialog.append(text('p', `Hardware: ${types.map((to) => `${to}: ${packed.hardware[to]}`).join('; ')}.`, { class: 'help' }));
   }
   dialog.append(text('h3', 'Go on'), commands);
   if (c.drawing) dialog.append(savedFiles(c, figure));
 }
 
-function choose(c, from) {
+async function choose(c, from) {
   const dialog = by('chosen');
   rest();
+  await complete(c);
   tell(c);
   dialog.addEventListener('close', () => from.focus(), { once: true });
   dialog.showModal();
 }
-
-show();

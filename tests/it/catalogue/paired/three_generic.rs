@@ -3,7 +3,7 @@
 mod every_way;
 
 use super::super::carried_on::scattered;
-use super::super::command::{at, fails, ok, whole};
+use super::super::command::{at, cards_of, fails, ok, whole};
 use super::{Built, LAID, built, pulls_as_its_file_says, rows};
 use crate::common::json;
 use ozols::chains::sharing::Menu;
@@ -171,7 +171,9 @@ fn it_is_queried_shown_drawn_and_merged() {
     let page = at(&folder, "page.html");
     ok(&["catalog", "page", &one, "-o", &page]);
     let html = std::fs::read_to_string(&page).unwrap();
-    assert!(html.contains(id) && html.contains("\"tip_c_dx\":"));
+    let cards = cards_of(&html);
+    let card = cards.iter().find(|c| c["id"] == *id).unwrap();
+    assert!(card["tip_c_dx"].is_number(), "{card}");
 }
 
 #[test]
