@@ -354,7 +354,10 @@ fn conditions_are_those_of_a_search_and_bad_ones_are_refused() {
             "--looked must be at least 1",
         ),
         (&["gripper-10", "--one-per-orbit"], "--one-per-orbit"),
-        (&["four-bar", "--options", "ball"], "no joint of four-bar"),
+        (
+            &["four-bar", "--options", "gearbox"],
+            "no joint of four-bar",
+        ),
     ] {
         let o = ozols(&[&["bench", "--quick"], bad].concat())
             .output()

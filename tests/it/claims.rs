@@ -26,7 +26,7 @@ fn state(name: &str, at: usize) -> Value {
 /// Each figure of `[Pogrebnyak 2018]` that the program confirms has a row, and a tally counts what has one.
 #[test]
 fn each_confirmed_figure_of_the_gripper_has_a_row() {
-    let (claims, text) = claims(&["analyze", "gripper-10"]);
+    let (claims, text) = claims(&["analyze", "gripper-10", "--verbose"]);
     let [free, clamped] = [0, 1].map(|i| state("gripper-10", i));
     let [redesign, pad] =
         [("gripper-10-redesign", 0), ("gripper-10-unloaded", 1)].map(|(n, i)| state(n, i));
@@ -201,7 +201,7 @@ fn with_weights_of_rods_alone(text: &str) -> String {
 /// `[Pogrebnyak 2018]`: the rods hang between slider and rockers, and rockers turn on the frame.
 #[test]
 fn rods_and_rockers_are_told_apart() {
-    let (claims, text) = claims(&["analyze", "gripper-10"]);
+    let (claims, text) = claims(&["analyze", "gripper-10", "--verbose"]);
     let swapped = claim(&claims, "rods 3 and 7 to rockers");
     assert_eq!(swapped["holds"], false);
     assert_eq!(swapped["right"], "rods 2 and 6, rockers 3 and 7");
@@ -220,7 +220,7 @@ fn rods_and_rockers_are_told_apart() {
 /// `[Pogrebnyak 2018]`: the two constraints that the unloading joint leaves are forces along x and z, so the plane is z0x.
 #[test]
 fn the_plane_of_the_constraints_left_is_that_of_their_forces() {
-    let (claims, text) = claims(&["analyze", "gripper-10"]);
+    let (claims, text) = claims(&["analyze", "gripper-10", "--verbose"]);
     let plane = claim(&claims, "in the plane z0y");
     assert_eq!(plane["holds"], false);
     assert_eq!(plane["right"], "in the plane z0x");
@@ -342,13 +342,17 @@ fn misprints_of_the_drive_are_told() {
 
 #[test]
 fn nothing_is_told_of_mechanisms_that_no_claim_is_about() {
-    let (claims, text) = claims(&["analyze", "four-bar"]);
+    let (claims, text) = claims(&["analyze", "four-bar", "--verbose"]);
     assert!(
         claims.is_empty() && !text.contains("published of this mechanism"),
         "{text}"
     );
     // Claims about arms are not about structure.
-    assert!(self::claims(&["analyze", "lever-gripper"]).0.is_empty());
+    assert!(
+        self::claims(&["analyze", "lever-gripper", "--verbose"])
+            .0
+            .is_empty()
+    );
 }
 
 /// What a mechanism does not have is empty, not absent: every answer has the same keys.

@@ -248,7 +248,7 @@ fn bad_tables_are_refused_where_they_stand() {
         mass = 2 | mass = -2 | mass = -2 | mass -2 is out of range; give a number above 0
         mass = 2 | mass = nan | mass = nan | finite
         mass = 2 |  | gravity | gravity needs the mass of the part
-        mass = 2 | mass = 2\ndensity = 7850 | mass = 2 | mass and density exclude each other
+        mass = 2 | mass = 2\ndensity = 7850 | mass = 2 | mass and density or part_length exclude each other
         mass = 2 | density = 7850 | density | density needs part_length
         friction = 0 |  | mass = 2 | mass needs friction
         friction = 0 | friction = -0.1 | friction | a coefficient from 0 to 10

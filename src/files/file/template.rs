@@ -338,7 +338,7 @@ mod tests {
             ("# Mass in kg.", "mass = 0.25"),
             ("# Name, unique among joints.", "id = \"0-1\""),
             ("# The force in N.", "force = [0, 60, 0]"),
-            ("# weight: Its weight, 1 by default.", "terms = ["),
+            ("# weight: Weight of the term. Default: 1.", "terms = ["),
         ] {
             assert_eq!(new.matches(comment).count(), 1, "{comment}\n{new}");
             let at = new.find(comment).expect("counted");

@@ -36,7 +36,7 @@ fn what_is_wrong_in_a_file_is_told_with_its_line() {
         [[joint]] | [[link]]\nid = "lone"\n\n[[joint]] | lone | link "lone" has no joint
         axis = [0, 0, 1] | axis = [0, 0, 0.0] | 0, 0.0] | axis of joint "0-1" is zero
         axis = [0, 0, 1] | axis = [0, 0, 1]\nreference = [0, 0, -2] | reference = | reference of joint "0-1" is parallel
-        type = "revolute" | type = "hinge" | hinge" | unknown joint type "hinge" & revolute, prismatic, helical, cylindrical, universal & spherical & custom
+        type = "revolute" | type = "hing" | hing" | unknown joint type "hing" & did you mean hinge? & revolute, prismatic, helical, cylindrical, universal & spherical & custom
         "mm" | "furlong" | furlong | unknown length unit "furlong" & m, mm, cm, um, in
         role = "output" | role = "tool" | "tool" | unknown role "tool" & frame, output, object
         length_unit | mode = "flat"\nlength_unit | "flat" | unknown mode "flat" & spatial, planar
@@ -68,9 +68,9 @@ fn what_is_wrong_in_a_file_is_told_with_its_line() {
     }
     // Several at once.
     let text = with("[\"2\", \"3\"]", "[\"2\", \"zz\"]");
-    let text = text.replacen("type = \"revolute\"", "type = \"hinge\"", 1);
-    let parts = ["unknown link \"zz\"", "unknown joint type \"hinge\""];
-    bad_file("bad.toml", &text, "hinge\"", &parts);
+    let text = text.replacen("type = \"revolute\"", "type = \"hing\"", 1);
+    let parts = ["unknown link \"zz\"", "unknown joint type \"hing\""];
+    bad_file("bad.toml", &text, "hing\"", &parts);
 }
 
 #[test]

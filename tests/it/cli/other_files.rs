@@ -26,7 +26,7 @@ fn error_in_json() {
     let text = four_bar_json();
     for [from, to, said] in cases::<3>(
         r#"
-        "revolute" | "hinge" | unknown joint type "hinge"
+        "revolute" | "hing" | unknown joint type "hing"
         "drive": true | "drive": true true | expected
         "drive": true | "drive": 7 | true, false or the freedom that is driven
         "drive" | "driven" | driven

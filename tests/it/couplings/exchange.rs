@@ -14,7 +14,7 @@ fn the_report_has_a_row_for_each_coupling() {
         (&shares[5]["redundant"], &shares[0]["greatest"]),
         (&1.into(), &1.into())
     );
-    let text = String::from_utf8(run(&["analyze", "geared-gripper"]).stdout).unwrap();
+    let text = String::from_utf8(run(&["analyze", "geared-gripper", "--verbose"]).stdout).unwrap();
     has(&text, "c = 1 coupling");
     has(&text, "0-1 ~ 0-4");
 }

@@ -67,7 +67,7 @@ fn a_cylindrical_drive_costs_one_row_out_of_the_plane() {
     };
     assert_eq!(figures(0), ("in plane", "z", [12, 12, 12, 0]));
     assert_eq!(figures(1), ("out of plane", "z", [4, 12, 1, 11]));
-    let text = out(&["analyze", "gripper-10", "--state", "free"]);
+    let text = out(&["analyze", "gripper-10", "--state", "free", "--verbose"]);
     has(
         &text,
         "; all joints move in a plane with normal z (12 of 12 rows, rank 12, σ = 0) or out of it (4 of 12 rows, rank 1, \

@@ -138,5 +138,5 @@ fn robots_with_legs_have_the_numbers_of_gogu() {
         assert_eq!(crr["gogu"][symbol], crr[key]);
     }
     assert!(of("gripper-10")["gogu"].is_null());
-    has(&out("analyze 3-crr"), "in Gogu's symbols: M = ");
+    has(&out("analyze 3-crr --verbose"), "in Gogu's symbols: M = ");
 }

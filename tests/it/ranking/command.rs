@@ -73,7 +73,7 @@ fn bad_rankings_are_refused_with_line_item_and_remedy() {
         # more | [joint_types.spherical]\ncapacity_force = 0 | capacity 0 & above 0
         # more | [joint_types.spherical]\ncapacity_moment = -1 | capacity -1
         # more | [joint_types.spherical]\nclearance = -1 | clearance -1
-        # more | [joint_types.ball]\nclearance = 1 | unknown joint type "ball" & spherical
+        # more | [joint_types.bal]\nclearance = 1 | unknown joint type "bal" & spherical
         "#,
     ) {
         let text = changed(&good, from, to);

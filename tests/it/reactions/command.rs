@@ -27,7 +27,7 @@ fn bad_workloads_are_refused_with_line_item_and_remedy() {
     for [more, parts] in cases::<2>(
         r#"
         [workload.stiffness.default]\nlinear = 0\nangular = 1\n | stiffness 0 & above 0
-        [workload.stiffness.ball]\nlinear = 1\nangular = 1\n | unknown joint type "ball" & spherical
+        [workload.stiffness.bal]\nlinear = 1\nangular = 1\n | unknown joint type "bal" & spherical
         [[workload.misalignment]]\njoint = "9-9"\nangle = 0.1\naxis = "x"\n | unknown joint "9-9"
         [[workload.misalignment]]\njoint = "2-3"\nangle = 0.1\naxis = "w"\n | unknown axis "w" & x, y, z
         [[workload.moment]]\nlink = "x"\nmoment = [0, 0, 1]\n | unknown link "x"

@@ -140,7 +140,7 @@ fn two_connects_for_a_hinge_ask_for_one_of_their_rows() {
             "4 redundant constraints",
             "2 of them at this pose only",
             "elsewhere in the motion 2, by 20 closed poses (numeric)",
-            "h1 stands at 0 rad, outside its limits 0.698 to 0.873",
+            "h1 is at 0 rad, outside its limits 0.698 to 0.873",
         ],
     );
 }

@@ -51,7 +51,7 @@ fn what_moves_in_an_exported_urdf_weighs_something() {
     assert_eq!(code, Some(0), "{told}");
     let (code, out, told) = run_on("export", "m.urdf", &out, &["--to", "urdf"]);
     assert_eq!(code, Some(0), "{told}");
-    has(&told, "weigh a gram");
+    has(&told, "links without a mass get 1 g");
     assert_eq!(weights(&out, |name| name != "base").len(), 6);
     // Joints in series of a mechanism of our own; what stands still needs no mass.
     let words = ["export", "gripper-10", "--variant", "1", "--to"];

@@ -244,7 +244,7 @@ fn foreign_formats_are_named() {
         ("a.CATProduct", "V5_CFV2", "CATIA"),
         ("a.usda", "#usda 1.0", "USD"),
         ("a.x_t", "**ABC", "Parasolid"),
-        ("robot.yaml", "closed_loop: []", "--loops"),
+        ("robot.yaml", "closed_loop: []", "loop closures"),
     ] {
         for command in ["analyze", "lint", "check", "search", "fix"] {
             let (code, _, err) = run_on(command, name, text, &[]);

@@ -56,7 +56,7 @@ fn a_plane_has_its_directions_and_moments_at_the_joints() {
         near(joint(stress, "left")["share"].real(), left, 1e-12);
         near(joint(stress, "right")["share"].real(), right, 1e-12);
     }
-    let (_, text, _) = run_on("analyze", "m.toml", &slides(), &[]);
+    let (_, text, _) = run_on("analyze", "m.toml", &slides(), &["--verbose"]);
     has(&text, "right 83 %, left 17 %");
     assert!(!text.contains("force along x"), "{text}");
 }
@@ -120,7 +120,7 @@ fn planar_counting_counts_what_moves_in_the_plane() {
 fn shares_of_a_self_stress_add_up() {
     for name in words("gripper-10 gripper-10-loaded four-bar bennett delta-parallelograms sarrus") {
         let found = json(&["analyze", name, "--format", "json"]);
-        let text = out(&["analyze", name]);
+        let text = out(&["analyze", name, "--verbose"]);
         for state in found["states"].list() {
             for stress in state["self_stresses"].list() {
                 let joints = stress["joints"].list();

@@ -76,7 +76,7 @@ impl State<'_> {
         }
         writeln!(out, "  {}", self.certainty())?;
         // What was done to the coordinates matters to everyone.
-        if verbose || !s.snapped.is_empty() || s.as_written.is_some() {
+        if verbose || !s.snapped.is_empty() || s.as_written.is_some() || s.at_most().is_some() {
             for line in self.method_lines() {
                 writeln!(out, "  {line}")?;
             }
@@ -99,9 +99,10 @@ impl State<'_> {
         let harmless = stresses.iter().filter(|t| harm(t) == "harmless").count();
         match (stresses.len(), harmless) {
             (0, _) => Ok(()),
-            (_, 0) => writeln!(
+            (1, 0) => writeln!(out, "  It strains the joints if parts are inaccurate."),
+            (all, 0) => writeln!(
                 out,
-                "  All of them strain the joints if parts are inaccurate."
+                "  All {all} strain the joints if parts are inaccurate."
             ),
             (all, n) => writeln!(
                 out,

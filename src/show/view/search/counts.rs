@@ -24,6 +24,7 @@ pub(super) const IDEAS: &str =
 
 /// Returns the verdict and how it was checked; with `verbose` also which variants are minimal, and the counts by mobility.
 pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
+    let verbose = verbose || matches!(outcome.request.list, List::Nothing | List::Top(0));
     let mut out = verdict(outcome, verbose);
     let lines = minimal(outcome).filter(|_| verbose).into_iter();
     let lines = lines.chain(numeric::lines(outcome));
@@ -47,7 +48,7 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> St
     {
         let _ = writeln!(out, "  {line}");
     }
-    if verbose || outcome.request.list == List::Nothing {
+    if verbose {
         out += &by_mobility(outcome, width);
     }
     fit(&out, width)
@@ -125,8 +126,7 @@ fn verdict(outcome: &Outcome, verbose: bool) -> String {
     if let Some(line) = in_the_pose(outcome) {
         let _ = writeln!(out, "  {line}");
     }
-    let counted = verbose || outcome.request.list == List::Nothing;
-    if !more.is_empty() && (counted || outcome.listed_counts().total.is_zero()) {
+    if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => determinate(outcome),

@@ -52,7 +52,7 @@ pub fn write(
         }
         writeln!(out, "{}", variants(outcome, &block, width))?;
         // Shares of contours are found in exact arithmetic.
-        if outcome.numeric.is_none() && (verbose || block.iter().any(|v| v.redundant() > 0)) {
+        if outcome.numeric.is_none() && (verbose || block.iter().any(is_redundant)) {
             write!(out, "{}", contours(&block, width))?;
         }
         if outcome.request.distinct && first.position() == 1 {
@@ -95,7 +95,12 @@ pub fn write(
     write!(out, "{}", next_commands::text(&steps, width))
 }
 
-/// What order the variants are in.
+/// Returns whether a variant leaves redundant constraints.
+fn is_redundant(v: &Variant<'_>) -> bool {
+    v.redundant() > 0 || v.external_redundant().is_some_and(|n| n > 0)
+}
+
+/// Returns the order of the variants in words.
 fn order(outcome: &Outcome) -> String {
     match &outcome.ranking {
         Some(p) => ranking::head(p),

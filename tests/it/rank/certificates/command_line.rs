@@ -23,7 +23,7 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
     assert_eq!((code, err.as_str()), (Some(1), ""));
     has(
         &said,
-        "state free: certificate rejected: it is about a 24 x 14 matrix",
+        "state free: certificate rejected: it is for a 24 x 14 matrix",
     );
     // Of the same in a plane.
     let (code, _, _) = ran(&["verify", "gripper-10", path, "--planar"]);

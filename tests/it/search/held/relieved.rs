@@ -119,7 +119,7 @@ fn variants_say_where_their_redundant_constraints_are() {
         "{csv}"
     );
     assert!(lines.next().unwrap().contains(" to "), "{csv}");
-    let none = out(&["search", "gripper-10", "--top", "2"]);
+    let none = out(&["search", "gripper-10", "--top", "2", "--verbose"]);
     has(&none, "σ by contour: none in any");
 }
 
