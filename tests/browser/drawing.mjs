@@ -82,6 +82,9 @@ export function drawingTests(test) {
       await hand.place(40, 25);
       await ideas(tab);
       assert.equal(await tab.locator(".next").count(), 0);
+      await hand.tool("ground");
+      await hand.place(40, 0);
+      await told(tab, "Link 3 is already joined to the frame there.");
       assert.ok(hand.count.clicks <= 20, `${hand.count.clicks} clicks`);
     });
     child.kill("SIGINT");

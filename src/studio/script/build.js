@@ -71,6 +71,7 @@ async function ground(spot, kind = type) {
   if (frame === null) return say("No link is the frame yet: select one and choose the role frame.", true);
   const link = spot.pin ? partnerAt(spot.pin) : spot.link;
   if (!link || link === frame) return say("Click a pin or a link: it is joined to the frame there.", true);
+  if (pinsAt(spot.at).some((p) => p.links.includes(frame) && p.links.includes(link))) return say(`Link ${link} is already joined to the frame there.`, true);
   const gone = spot.pin?.what === "point" && isEnd(spot.pin.id) ? [remove([spot.pin])] : [];
   const joint = newJoint([frame, link], spot.point, kind, []);
   await change(...gone, joint);

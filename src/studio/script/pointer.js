@@ -42,6 +42,16 @@ function linkIdAt(paper) {
   return null;
 }
 
+/** The link whose plate a place is on, by its id. */
+function plateAt(paper) {
+  const found = listOf("link").find((l) => {
+    const round = l.id === frameOf() ? [] : hull(pinsOf(l.id).map((p) => toPaper(p.at)));
+    const sides = round.map((p, i) => Math.sign(turning([p, round[(i + 1) % round.length], paper])));
+    return round.length > 2 && sides.every((s) => s === sides[0]);
+  });
+  return found?.id ?? null;
+}
+
 /** What a tool gets of a place: a pin, a place of a link, or an empty one; where it is, and how that is written. */
 function spotAt(paper, kind, free = false) {
   const deep = [...camera.centre];
@@ -51,7 +61,7 @@ function spotAt(paper, kind, free = false) {
   if (pin) return { pin, link: null, at: pin.at, point: coordinatesOf(pin), guides: [], words: `at ${pin.id}` };
   const base = deep.map((x, i) => (i === k ? x : 0));
   const found = snapped(paper, { deep, base, free });
-  return { ...found, link: found.pin ? null : linkIdAt(paper) };
+  return { ...found, link: found.pin ? null : linkIdAt(paper), plate: plateAt(paper) };
 }
 
 /** How deep the last pin was set, or most are. */
@@ -136,7 +146,7 @@ function click(event) {
     return useTool(spotAt(paper, event.pointerType, event.altKey));
   }
   const pin = pinAt(paper, event.pointerType);
-  const link = pin ? null : linkIdAt(paper);
+  const link = pin ? null : linkIdAt(paper) ?? (isAtHome() ? plateAt(paper) : null);
   const found = pin ? [{ what: pin.what, id: pin.id }] : link ? [{ what: "link", id: link }] : [];
   if (!pin || event.shiftKey) return select(found, event.shiftKey);
   // at a place where several stand, the next click takes the next

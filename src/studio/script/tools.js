@@ -18,7 +18,7 @@ const tool = { name: "select", spots: [], at: null };
 const linkOfSpot = (spot) => spot.link ?? (spot.pin ? partnerAt(spot.pin) : null);
 
 function markRole(spot, role) {
-  const link = linkOfSpot(spot);
+  const link = linkOfSpot(spot) ?? spot.plate;
   return link ? toggleRole(link, role) : say("Click a link.", true);
 }
 
