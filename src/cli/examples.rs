@@ -181,7 +181,7 @@ ozols finds the redundant constraints of a mechanism, and every redesign that re
   ozols list                  the built-in mechanisms
   ozols analyze gripper-10    the redundant constraints of one of them
   ozols search gripper-10     the best redesigns
-  ozols new mine.toml         a commented file to edit; then: ozols check mine.toml
+  ozols new mine.toml         a commented file to edit; then ozols mine.toml opens it
   ozols explain sigma         what a term in the output means
   ozols --help                every command
 ";

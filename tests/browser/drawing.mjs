@@ -121,7 +121,7 @@ export function drawingTests(test) {
       await box("#thing", "spherical").uncheck();
       await written('forbid = ["spherical"]');
       await counted("of 18 variants");
-      await tab.locator('#thing button:has-text("Leave it as it is")').click();
+      await tab.locator('#thing button:has-text("Never change it")').click();
       await written("options = []");
       await counted("of 9 variants");
       await tab.locator('#thing button:has-text("As everywhere")').click();

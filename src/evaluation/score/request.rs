@@ -325,8 +325,8 @@ impl Request {
         }))
     }
 
-    /// The conditions on the variants of a mechanism that is prepared, with those of its file where the request says nothing, and why its geometry looks rounded, where that may
-    /// matter; `tell` is warned of that.
+    /// Returns the conditions on the variants of a prepared mechanism, with limits of its file that the request does not set. Also
+    /// returns why its geometry looks rounded, if that may matter; `tell` is warned of that.
     ///
     /// # Errors
     /// Where the request names what the mechanism has not.

@@ -221,7 +221,7 @@ pub struct SearchSpec {
     /// Joints that map to each other when the mechanism is turned, each to the next and the last to the first: two by
     /// half a turn, three by a third. Not allowed together with mirror images.
     pub turn: Vec<Vec<JointId>>,
-    /// Redundant constraints that may be left within the mechanism; none where 0.
+    /// Largest number of redundant constraints that may be left within the mechanism.
     pub max_redundant: u32,
     /// Largest mobility W allowed.
     pub max_mobility: Option<i64>,

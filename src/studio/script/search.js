@@ -1,4 +1,4 @@
-// Search options and what it asks for. What is set here is written into the file.
+// Search options: joint types and limits for all joints, and types for the selected joints. They are written into the file.
 
 /** Types that need more than their name, or that leave nothing to move. */
 const NEED_MORE = ["helical", "custom", "fixed"];
@@ -10,7 +10,7 @@ const optionName = (o) => {
 const searchOf = () => desk.look?.file?.search ?? {};
 const putSearch = (key, value) => change({ do: "put", path: ["search", key], value });
 
-/** A list of options with one more, or without it; what else is in it stays as it is. */
+/** A list of options with one more, or without it; other entries are unchanged. */
 const toggled = (list, kind, on) => (on ? [...list, kind] : list.filter((o) => optionName(o) !== kind));
 
 /** A box to tick with a joint type: its symbol, its name and what the trade calls it. */
@@ -48,8 +48,8 @@ function showSearch() {
     element("summary", {}, "Search options"),
     element("p", { class: "help" }, offered.length ? "A joint may become any ticked type that keeps its motion. Select a joint to allow or forbid types there." : "No type is ticked, so the usual ones are offered. Select a joint to allow or forbid types there."),
     element("div", { class: "type-boxes", role: "group", "aria-label": "Joint types offered" }, ...boxes),
-    numberField("Redundant constraints left, at most", search.max_redundant ?? 0, (n) => putSearch("max_redundant", n || null)),
-    numberField("Mobility W, at most", search.max_mobility, (n) => putSearch("max_mobility", n)),
+    numberField("Most redundant constraints left", search.max_redundant ?? 0, (n) => putSearch("max_redundant", n || null)),
+    numberField("Largest mobility W", search.max_mobility, (n) => putSearch("max_mobility", n)),
     tick("mirror-symmetric redesigns only", search.symmetric, (on) => putSearch("symmetric", on || null)),
   ];
   refill(byId("search-fold"), ...parts);
@@ -76,10 +76,10 @@ function typesAt(ids) {
   const names = offered.map(optionName);
   const fold = element("details", { class: "wide", open: typesAt.open ? "" : null },
     element("summary", {}, "A search may put here"),
-    stays && !joint.options ? element("p", { class: "help" }, "It stays as it is, unless a type is ticked.") : "",
+    stays && !joint.options ? element("p", { class: "help" }, "A search does not change this joint, unless a type is ticked.") : "",
     element("div", { class: "type-boxes" }, ...fit.map((t) => typeBox(t, names.includes(t.type), take(t.type)))),
     element("div", { class: "acts" },
-      button("Leave it as it is", () => change(...give("options", []), ...give("forbid", null))),
+      button("Never change it", () => change(...give("options", []), ...give("forbid", null))),
       button("As everywhere", () => change(...give("options", null), ...give("forbid", null)))));
   fold.addEventListener("toggle", () => (typesAt.open = fold.open));
   return fold;

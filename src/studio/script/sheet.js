@@ -14,7 +14,7 @@ function makeSheet() {
   new ResizeObserver(() => {
     const { width, height } = byId("sheet").getBoundingClientRect();
     if (!width || (camera.size[0] === width && camera.size[1] === height)) return;
-    // what is drawn stays as far from the left and the top as it is
+    // the drawing keeps its distance from the left and the top
     if (takeScene.seen) panBy((camera.size[0] - width) / 2, (camera.size[1] - height) / 2);
     camera.size = [width, height];
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);

@@ -101,7 +101,7 @@ fn new_without_a_file_lists_what_to_start_from() {
     has(&err, "ozols new mine.toml --from NAME");
     let (code, _, err) = ran(&["new", "--from", "four-bar"]);
     assert_eq!(code, Some(2));
-    has(&err, "<FILE>");
+    has(&err, "FILE");
 }
 
 // list
