@@ -258,7 +258,7 @@ fn bad_tables_are_refused_where_they_stand() {
         "pi/6" | -5 | mounting_angle | an angle from 0 to 179
         lever_length = 100 | lever_length = 0 | lever_length | a number above 0
         lever_length = 100 | lever_length = inf | lever_length | finite
-        lever_length = 100 | lever_len = 100 | lever_len | unknown field
+        lever_length = 100 | lever_len = 100 | lever_len | did you mean lever_length?
         diameter = 40 | diameter = 40\ndiameters = [] | diameters | 1 to 1000
         diameter = 40 | diameter = 40\ndiameters = { from = 50, to = 40, count = 3 } | diameters | not below `from`
         diameter = 40 | diameter = 40\npivots = "loose" | pivots | known: fixed, nominal

@@ -261,7 +261,9 @@ fn the_command_takes_three_jaws() {
     let page = folder.path().join("g.html").display().to_string();
     said(&["page", &db, "-o", &page], 0);
     let html = std::fs::read_to_string(&page).unwrap();
-    assert!(html.contains("\"tip_c_dx\":") && html.contains(&id));
+    let cards = super::command::cards_of(&html);
+    let card = cards.iter().find(|c| c["id"] == *id).unwrap();
+    assert!(card["tip_c_dx"].is_number(), "{card}");
     for (more, says) in [
         (&["--jaws", "4"][..], "jaws must be from 2 to 3"),
         (

@@ -87,14 +87,14 @@ fn a_larger_budget_never_gives_a_worse_bound() {
 
 #[test]
 fn what_finished_within_the_memory_stays_exact() {
-    let whole = found(&ladder(6), &[]);
+    let whole = found(&ladder(7), &[]);
     assert_eq!(
         (&whole["stop"], &whole["exact"]),
         (&"exhausted".into(), &true.into())
     );
     let mut words = Vec::new();
-    for memory in ["100K", "200K", "400K", "1M", "2M", "4M"] {
-        let v = found(&ladder(6), &["--memory", memory]);
+    for memory in ["1M", "2M", "4M", "8M", "16M", "32M"] {
+        let v = found(&ladder(7), &["--memory", memory]);
         let (all, some) = (number(&whole["determinate"]), number(&v["determinate"]));
         assert!(some <= all, "{memory}");
         assert_eq!(v["determinate_exact"] == true, some == all, "{memory}");
