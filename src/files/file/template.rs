@@ -345,7 +345,7 @@ mod tests {
             let line = new[at..].lines().nth(1);
             assert_eq!(line, Some(key), "{comment}");
         }
-        assert!(new.contains("May also have: "), "{new}");
+        assert!(new.contains("It may also have: "), "{new}");
     }
 
     #[test]
