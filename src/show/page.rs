@@ -74,7 +74,7 @@ const SCRIPT: [&str; 10] = [
 const SECTIONS: [(&str, &str); 5] = [
     ("verdict", "Verdict"),
     ("redesigns", "Redesigns"),
-    ("mechanism", "The mechanism as it is"),
+    ("mechanism", "The original mechanism"),
     ("certainty", "How sure"),
     ("commands", "How to get this"),
 ];

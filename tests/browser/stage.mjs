@@ -133,7 +133,7 @@ export function stageTests(test, { gripper, loaded }) {
       for (const table of await tables.all()) assert.equal(await table.locator("caption button").count(), 1, await table.innerText());
       const list = (await copied(tab.locator("#variants caption button"))).trimEnd().split("\r\n");
       assert.equal(list.length, 201, "all of the list, not its page alone");
-      assert.equal(list[0], "idea,changed joints,stands for,cost,W,cond.");
+      assert.equal(list[0], "idea,changed joints,variants,cost,W,cond.");
       assert.match(list[1], /^1,"1-2, 2-3, .*→ cylindrical",1470,11.5,1,0.0\d+$/);
       const contours = await copied(tab.locator("#mechanism table caption button").first());
       assert.match(contours, /^Contour,Joints,σ,in any order,/);

@@ -392,7 +392,7 @@ export function studioTests(test) {
     await windowed(address, {}, async (tab) => {
       await ideas(tab);
       await told(tab, "2 redundant constraints");
-      assert.match(await tab.locator("#hint").innerText(), /to be looked at, and to take an idea/);
+      assert.match(await tab.locator("#hint").innerText(), /View a description here, and take an idea/);
       await tab.locator(".idea:enabled").first().click();
       await tab.waitForFunction(() => desk.verdict?.analysis?.states[0].redundant === 0);
       await tab.locator("#save").click();

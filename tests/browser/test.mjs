@@ -113,7 +113,7 @@ test("a variant is chosen by mouse: changes, figures and drawing", async () => {
     assert.equal(await marked.count(), 6);
     await tab.keyboard.press("Escape");
     assert.equal(await marked.count(), 0);
-    assert.match(await text(tab, "#chosen-head"), /as it is/);
+    assert.match(await text(tab, "#chosen-head"), /original mechanism/);
     await picture(tab, "gripper-10-as-it-is", false);
   });
 });
@@ -145,7 +145,7 @@ test("by keyboard alone: skip link, table, pages, chart", async () => {
     await tab.keyboard.press("Home");
     assert.equal(await focused(), "0");
     await tab.keyboard.press("Escape");
-    assert.match(await text(tab, "#chosen-head"), /as it is/);
+    assert.match(await text(tab, "#chosen-head"), /original mechanism/);
     const outline = await tab.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
     assert.equal(outline, "solid", "focus is seen");
     await tab.locator('#chart circle.front[tabindex="0"]').focus();
@@ -159,7 +159,7 @@ test("under loads: scores, reactions, and a chart of two figures", async () => {
   await open(loaded, { colorScheme: "dark" }, async (tab) => {
     await variants(tab);
     assert.match(await text(tab, "#redesigns"), /ranked under the workload/);
-    assert.match(await text(tab, "#chosen"), /What the joints bear/);
+    assert.match(await text(tab, "#chosen"), /Loads of the joints/);
     assert.match(await text(tab, "#chosen"), /\d+th by cost: peak moment/);
     const front = tab.locator("#chart circle.front");
     assert.ok((await front.count()) > 1);
@@ -202,7 +202,7 @@ test("ten thousand variants, on a small screen", async () => {
 
 test("the first list is of ideas, and single variants are a choice away", async () => {
   await open(gripper, {}, async (tab) => {
-    assert.match(await text(tab, "#count"), /^200 ideas; they stand for [\d,]+ of 21,817,629/);
+    assert.match(await text(tab, "#count"), /^200 ideas; they represent [\d,]+ of 21,817,629/);
     assert.match((await column(tab, "list"))[0], /^1-2, .* → spherical; 8-9 → cylindrical$/);
     assert.match(await text(tab, "#chosen"), /Idea 1/);
     assert.match(await text(tab, "#chosen"), /ozols draw gripper-10 --idea 1 -o gripper-10-idea-1.svg/);
@@ -225,7 +225,7 @@ test("a filter that nothing passes says what would, and the command for more", a
     await tab.fill("#most-cost", "1");
     const button = tab.locator("#variants tbody button").first();
     await button.waitFor();
-    assert.match(await button.innerText(), /^Without cost at most 1: \d+/);
+    assert.match(await button.innerText(), /^Without cost ≤ 1: \d+/);
     const promised = Number((await button.innerText()).match(/(\d+)$/)[1]);
     await button.click();
     await tab.waitForFunction((n) => document.querySelector("#count").textContent.startsWith(`${n} of`), promised);

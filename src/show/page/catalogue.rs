@@ -39,16 +39,21 @@ const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel
 /// Filters that are asked often: id, label, step and the greatest value.
 const OFTEN: [(&str, &str, &str, &str); 6] = [
     ("force", "Jaw force at least (N per N, N per Nm)", "any", ""),
-    ("ratio", "Greatest over least jaw force, at most", "0.5", ""),
+    (
+        "ratio",
+        "Maximum ratio of greatest to least jaw force",
+        "0.5",
+        "",
+    ),
     ("transmission", "Transmission angle at least (°)", "5", "90"),
     ("turn", "Jaw rotation at most (°)", "5", ""),
-    ("planes", "Link planes at most", "1", ""),
+    ("planes", "Maximum link planes", "1", ""),
     ("price", "Price at most (hinges)", "0.5", ""),
 ];
 /// Filters that are asked less often.
 const MORE: [(&str, &str, &str, &str); 8] = [
     ("pin", "Joint force at most (N per N)", "any", ""),
-    ("efficiency", "Efficiency at least", "0.05", "1"),
+    ("efficiency", "Minimum efficiency", "0.05", "1"),
     ("stroke", "Opening stroke at least (mm)", "5", ""),
     ("travel", "Drive travel at most (mm, rad)", "any", ""),
     ("actuator", "Drive work at most (N mm)", "any", ""),

@@ -56,20 +56,20 @@ fn search(r: &Redesigns<'_>) -> Vec<String> {
         Some(PrimeCheck {
             verdict: Verdict::Agree,
             ..
-        }) => lines.push("Checked: modulo two primes the same".to_owned()),
+        }) => lines.push("Checked: two runs with different primes agree".to_owned()),
         Some(_) => lines.push("Not checked by a second prime: interrupted".to_owned()),
         None => lines.push("One prime, without a second opinion".to_owned()),
     }
     let early = stopped_early::stopped(found);
-    lines.push(early.unwrap_or_else(|| "Every variant was counted; none was left out".to_owned()));
+    lines.push(early.unwrap_or_else(|| "Every variant was counted; none was omitted".to_owned()));
     lines.extend(stopped_early::estimated(found));
     lines.extend(stopped_early::more(found));
     if let Some((why, verdicts)) = &found.measured {
         let written = verdicts.iter().all(|v| v.is_as_written());
         let searched = if written {
-            "exact and tolerant ranks agree on the mechanism as it is, and the search takes every digit at its word"
+            "exact and tolerant ranks agree on the original mechanism, and the search takes every digit exactly as written"
         } else if found.request.as_written {
-            "something else is meant, and the search takes every digit at its word as it was asked to"
+            "something else is meant, and the search takes every digit exactly as written, as requested"
         } else {
             "the search is of the mechanism as meant, snapped within the digits"
         };

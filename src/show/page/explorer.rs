@@ -129,7 +129,7 @@ fn filters() -> Markup {
         form id="filters" aria-label="Filter the variants" {
             label id="list-field" {
                 "List "
-                select id="list" title="An idea stands for all variants that give the same freedoms to the same joints in series" {
+                select id="list" title="An idea represents all variants that give the same freedoms to the same joints in series" {
                     option value="ideas" { "ideas" }
                     option value="variants" { "single variants" }
                 }
@@ -169,7 +169,7 @@ fn table() -> Markup {
         }
         p.help id="table-help" {
             "Column heads sort. In the table: arrow keys move, Enter chooses, Page Up and Page Down turn pages, Escape goes \
-             back to the mechanism as it is."
+             back to the original mechanism."
         }
     }
 }

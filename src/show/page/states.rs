@@ -73,7 +73,7 @@ fn figures(state: &State<'_>) -> Markup {
             @if finite != Some(s.mobility) {
                 (row("", int(s.finite.mobility), &match finite {
                     Some(_) => "finite mobility".to_owned(),
-                    None => format!("finite mobility at least, {} at most", s.finite.at_most()),
+                    None => format!("lower bound of finite mobility; it is at most {}", s.finite.at_most()),
                 }))
             }
             @if state.counting_is_wrong() {
@@ -101,7 +101,7 @@ fn contours(s: &State<'_>) -> Markup {
         div.wide tabindex="0" role="group" aria-label={ "Contours, state " (s.found.state) } {
             table.contours {
                 caption {
-                    "Contours and the self-stresses in them: loads that parts out of true cause by themselves. σ of a contour \
+                    "Contours and the self-stresses in them: loads that inaccurate parts cause by themselves. σ of a contour \
                      depends on the order in which contours are counted, and on the basis they are of; the ranges are over all orders of \
                      these contours, and over all bases that have the contour."
                 }
@@ -111,7 +111,7 @@ fn contours(s: &State<'_>) -> Markup {
                         th scope="col" { "Joints" }
                         th.n scope="col" { "σ" }
                         th.n scope="col" { "in any order" }
-                        th.n scope="col" { "in any basis" }
+                        th.n scope="col" { "over all bases" }
                         th scope="col" { "Self-stresses: where each is simplest, as what there, and the share that each joint bears" }
                     }
                 }

@@ -110,7 +110,7 @@ fn moves(told: &State<'_>) -> String {
         (0, _) => "Nothing moves in this state.".to_owned(),
         (w, f) if w == f && s.local_mobility == 0 => format!("It moves in {} (W = {w}).", ways(w)),
         (w, f) if w == f => format!(
-            "It moves in {} (W = {w}), {} of which the outputs do not feel.",
+            "It moves in {} (W = {w}), {} of which do not move the outputs.",
             ways(w),
             s.local_mobility
         ),
@@ -167,7 +167,7 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
             format!("None of the {all} variants {goal}: give the joints more options{by_values}.")
         } else {
             format!(
-                "Of the {all} variants none {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
+                "None of the {all} variants {goal}{conditions}; {least}{} {goal}, but do not meet the other conditions{by_values}.",
                 grouped(rest)
             )
         };

@@ -19,7 +19,7 @@ async function takeIdea(n) {
 }
 
 function ideaRow(v, n) {
-  const stands = v.idea ? `stands for ${v.idea.exact ? "" : "at least "}${inThrees(v.idea.variants)}` : "";
+  const stands = v.idea ? `represents ${v.idea.exact ? "" : "at least "}${inThrees(v.idea.variants)}` : "";
   const figures = `cost ${v.cost} · W = ${v.mobility} · σ = ${v.redundant}${stands ? ` · ${stands}` : ""}`;
   const none = v.changes.length === 0;
   const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Take this idea: the file is changed, undo brings it back" },

@@ -98,7 +98,7 @@ function aboutPoint(p) {
 function acts() {
   const mirrors = paperAxes().map((k) => button(`Mirror ${"xyz"[k]}`, () => mirrorSelection(k), `The image with ${"xyz"[k]} turned round; a pair for the search`));
   return element("div", { class: "acts", role: "group", "aria-label": "Do with it" },
-    ...mirrors, button("Copy", copySelection, "A copy beside it (Ctrl+D)"), button("Delete", deleteSelection, "Delete (Del)"));
+    ...mirrors, button("Copy", copySelection, "A copy next to it (Ctrl+D)"), button("Delete", deleteSelection, "Delete (Del)"));
 }
 
 /** A button for each pin that is seen where the selected one is. */

@@ -2,7 +2,7 @@
 
 /** By tool: letter, name, what it says, and what it does with a spot. */
 const TOOLS = {
-  select: { key: "v", name: "Select", says: "Drag a pin to place it, a link to move the mechanism; drag beside them to turn or to shift the sheet.", mark: "M4 2L4 17L8 13L11 19L13.5 18L10.5 12L16 12Z" },
+  select: { key: "v", name: "Select", says: "Drag a pin to place it, a link to move the mechanism; drag next to them to turn or to shift the sheet.", mark: "M4 2L4 17L8 13L11 19L13.5 18L10.5 12L16 12Z" },
   bar: { key: "b", name: "Bar", says: "Click both ends: pins, places of links, or empty places.", take: (spots) => (spots.length === 2 ? addLink(spots) : null), mark: "M4 16L16 4" },
   plate: { key: "p", name: "Plate", says: "Click its pins; click the first or the last again, or press Enter, when it is done.", several: true, mark: "M3 16L10 3L17 13Z" },
   ground: { key: "g", name: "Frame pin", says: "Click a pin or a link: it is joined to the frame there.", take: ([spot]) => ground(spot), mark: "M10 4L5 12H15ZM3 12H17M5 16L7 12M9 16L11 12M13 16L15 12" },
@@ -48,7 +48,7 @@ function tellTool() {
 
 function readOnlyWords() {
   if (!desk.file) return "";
-  return desk.file.kind === "json" ? "A JSON file is changed as text, and may take an idea of the list." : "A description is here to be looked at, and to take an idea.";
+  return desk.file.kind === "json" ? "A JSON file is changed as text, and may take an idea of the list." : "View a description here, and take an idea.";
 }
 
 /** A click of the tool that is in hand. */

@@ -115,7 +115,7 @@ function inTheWay(asked) {
   });
   const out = without.length ? [without.join(', ')] : ['more than one filter is in the way'];
   if (by('jaws').value === 'parallel' && !data.cards.some((c) => FILTERS.jaws(c, 'parallel'))) {
-    out.push('with hinges alone, jaws that do not turn need ten links; with slides, four do (ozols catalog build --pairs slide,gear,slot)');
+    out.push('with only hinges, jaws that do not turn need ten links; with slides, four do (ozols catalog build --pairs slide,gear,slot)');
   }
   return out.join('; ');
 }

@@ -35,7 +35,7 @@ function table(caption, heads, rows) {
 function ideaWords(i) {
   const n = found.stands_for[i];
   const least = found.exact ? "" : "at least ";
-  const stands = n === "1" ? (found.exact ? "stands for itself alone" : "stands for itself at least") : `stands for ${least}${grouped(n)} variants, and leaves most as it is`;
+  const stands = n === "1" ? (found.exact ? "represents only itself" : "represents at least itself") : `represents ${least}${grouped(n)} variants, and is closest to the original`;
   return `${inWords(i).replace(/^[^:]*: /, "")}; ${stands}`;
 }
 
@@ -84,7 +84,7 @@ function loadTable(i) {
   const poses = work.poses > 1 ? `the most over ${work.poses} poses` : "at the pose of the file";
   const norm = work.minimum_norm[i] ? "; redundant constraints leave them open, these are of minimum norm" : "";
   const heads = ["joint", "force, N", "of capacity", "moment, N·m", "of capacity"];
-  return table(`What the joints bear, ${poses}${norm}`, heads, rows);
+  return table(`Loads of the joints, ${poses}${norm}`, heads, rows);
 }
 
 /** Words on the variant that are no table. */
@@ -109,7 +109,7 @@ function remarks(i) {
 }
 
 function showAsItIs() {
-  byId("chosen-head").textContent = "The mechanism as it is";
+  byId("chosen-head").textContent = "The original mechanism";
   byId("chosen-words").textContent = "Nothing is chosen: choose a row in the table or the chart to see what it changes.";
   byId("chosen-changes").replaceChildren();
   byId("chosen-more").replaceChildren();

@@ -43,8 +43,8 @@ function makeColumns() {
   };
   if (byIdeas()) {
     const show = (n) => (n > Number.MAX_SAFE_INTEGER ? power(n) : grouped(n));
-    const title = found.exact ? "stands for" : "stands for ≥";
-    add("stands", title, "variants that an idea stands for", found.stands_for.map((n) => (n === null ? null : Number(n))), { better: 1, show });
+    const title = found.exact ? "variants" : "variants ≥";
+    add("stands", title, "variants that an idea represents", found.stands_for.map((n) => (n === null ? null : Number(n))), { better: 1, show });
   }
   add("cost", "cost", "cost in revolute joints", found.cost);
   add("changes", "changes", "changed joints", found.changes, { table: !byIdeas() });
@@ -116,7 +116,7 @@ function changeLine(i) {
   const by = new Map();
   for (const c of changesOf(i)) by.set(c.to, [...(by.get(c.to) || []), c.id]);
   const parts = [...by].map(([to, ids]) => `${ids.join(", ")} → ${to}`);
-  return parts.length ? parts.join("; ") : "none: the mechanism as it is";
+  return parts.length ? parts.join("; ") : "none: the original mechanism";
 }
 
 /** What the text filter looks at. */

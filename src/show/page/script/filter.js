@@ -23,7 +23,7 @@ function criteria() {
   for (const word of byId("find").value.replaceAll("→", "->").split(/\s+/).filter(Boolean)) {
     out.push({ words: `“${word}”`, word, passes: (i) => haystack(i).includes(word.toLowerCase()) });
   }
-  const limits = [["most-cost", "cost at most", found.cost], ["most-changes", "changes at most", found.changes], ["most-mobility", "W at most", found.mobility]];
+  const limits = [["most-cost", "cost ≤", found.cost], ["most-changes", "changes ≤", found.changes], ["most-mobility", "W ≤", found.mobility]];
   for (const [id, words, values] of limits) {
     const most = limit(id);
     if (most !== null) out.push({ words: `${words} ${most}`, field: id, passes: (i) => values[i] <= most });
@@ -127,7 +127,7 @@ function tellCount() {
   if (view.order.length < total) words = `${shown} of the ${listed} listed ${each} ${view.order.length === 1 ? "passes" : "pass"} the filter`;
   else if (byIdeas()) {
     const stand = found.stands_for.reduce((sum, n) => sum + BigInt(n || 0), 0n);
-    words = `${total === 1 ? "One idea; it stands" : `${listed} ideas; they stand`} for ${found.exact ? "" : "at least "}${grouped(stand)} of ${whole} admissible variants`;
+    words = `${total === 1 ? "One idea; it represents" : `${listed} ideas; they represent`} ${found.exact ? "" : "at least "}${grouped(stand)} of ${whole} admissible variants`;
   } else if (total === Number(found.admissible)) words = total === 1 ? "The only admissible variant" : `All ${listed} admissible variants`;
   byId("count").textContent = words;
 }

@@ -40,7 +40,7 @@ function headLine() {
   const parts = [];
   if (work && work.ranked) parts.push(`In order: ${work.ranked.head}.`, ...work.ranked.notes.map((n) => (/[.:]$/.test(n) ? n : `${n}.`)));
   else parts.push("In order of cost, in revolute joints by the table of [search.costs].");
-  if (found.workload && found.workload.failed) parts.push(`The loads were not looked at: ${found.workload.failed}.`);
+  if (found.workload && found.workload.failed) parts.push(`The loads were not examined: ${found.workload.failed}.`);
   if (found.notes.some(Boolean)) parts.push("Marked variants (!, *, ~) need care: point at them or choose them to see why.");
   return parts.join(" ");
 }

@@ -15,7 +15,7 @@ function figuresOf(c) {
     ['Structure', `${c.id}: ${c.name}`],
     ...(c.classics ? [[c.jaw_c_motion ? 'With two jaws known as' : 'Known as', c.classics]] : []),
     ['Form', `${c.links} links, ${formOf(c)}; ${c.jaws_at_frame} jaws at the frame${c.truss ? '; a truss with the part' : ''}${c.drawing && c.drawing.folded ? '; of three sides two are drawn, opposite each other' : ''}`],
-    ['Jaws', `${jawsOf(c)}; they turn by ${short(c.jaw_turn)}° at most`],
+    ['Jaws', `${jawsOf(c)}; they turn by at most ${short(c.jaw_turn)}°`],
     ['Opening', `${short(c.opening_min)} to ${short(c.opening_max)} mm for ${short(c.travel)} ${drive} of the drive${ends.length ? ' (' + ends.join(', ') + ')' : ''}`],
     ['Force of a jaw', `${short(c.force_min)} ${unit(c)} at least, ${short(c.force_max)} at most over the stroke, without friction`],
     ['Transmission', `worst angle ${short(c.transmission)}°, links 1 : ${short(c.link_ratio)}, ${c.crossings} crossings`],
@@ -52,7 +52,7 @@ function figureTable(c) {
     row.append(text('th', name, { scope: 'row' }), text('td', mine.get(name) || '–'), text('td', other.get(name) || '–'));
   }
   const room = document.createElement('div');
-  room.className = 'wide beside';
+  room.classList.add('wide', 'beside');
   room.append(table);
   return room;
 }
@@ -141,7 +141,7 @@ function tell(c) {
   const { figure, show } = sight(c), two = document.createElement('div');
   two.className = 'two';
   two.append(figure, figureTable(c));
-  if (kept && kept !== c) figure.append(text('p', `Beside ${titleOf(kept)}:`, { class: 'help' }), gripper(kept, titleOf(kept)));
+  if (kept && kept !== c) figure.append(text('p', `Compared with ${titleOf(kept)}:`, { class: 'help' }), gripper(kept, titleOf(kept)));
   dialog.replaceChildren(head, two);
   const commands = text('pre', '');
   const command = (idea) => {
@@ -152,7 +152,7 @@ function tell(c) {
   if (c.ideas.length) {
     dialog.append(
       text('h3', 'Redesigns without redundant constraints, symmetric ones first'),
-      text('p', 'Each stands for as many variants as share out the same freedoms among joints in series; choose one to see it carried out.', { class: 'help' }),
+      text('p', 'Each represents all variants that distribute the same freedoms among joints in series; choose one to see the redesign.', { class: 'help' }),
       ideaTable(c, (idea) => { show(idea); command(idea); }),
     );
     const types = [...new Set(c.ideas.flatMap(changesOf).map(([, to]) => to))].filter((to) => packed.hardware[to]);
