@@ -167,7 +167,7 @@ fn notes(t: &Trial) -> String {
     let mut notes = vec![wrong(t)];
     if !t.whole {
         notes.push(format!(
-            "Brute force looked at {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
+            "Brute force examined {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
              drawn at random: they give no counts, and their time is in proportion to all.",
             grouped(t.looked)
         ));

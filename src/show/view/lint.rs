@@ -213,7 +213,7 @@ impl Lint {
             }
         }
         if self.findings.is_empty() {
-            out += "\n  which constraints these are cannot be told: the digits do not decide\n";
+            out += "\n  the digits do not decide which constraints these are\n";
         }
         if !self.cheapest.is_empty() {
             out += &format!(
@@ -250,7 +250,7 @@ impl Lint {
         let rows = match self.left_out {
             0 => String::new(),
             n => format!(
-                "; {} between joints left out, which may be redundant and lower W",
+                "; {} between joints omitted, which may be redundant and lower W",
                 plural(n, "row")
             ),
         };

@@ -302,7 +302,7 @@ fn statics_say_which_loads_came_from_the_grip() {
             "D = 50 mm, acceleration 5 m/s² along",
             "safety factor 1.5",
             "1-a far",
-            "--spatial takes them",
+            "--spatial includes them",
         ],
     );
     // Empty jaws bear nothing.

@@ -308,7 +308,7 @@ fn the_program_tells_what_a_coupling_passes() {
         &[
             "Coupling 0-1 ~ 0-2 passes at most",
             "Drive 0-1 holds tz: from -2",
-            "pressure angle and friction are left out",
+            "pressure angle and friction are omitted",
         ],
     );
     let text = changed(
@@ -375,7 +375,10 @@ fn gears_that_cannot_mesh_are_told_of() {
     );
     let (code, said, _) = run_on("statics", "bevel.toml", &bevel, &["--spatial"]);
     assert_eq!(code, Some(0), "{said}");
-    has(&said, "Where the teeth of 0-1 ~ 0-2 are does not follow");
+    has(
+        &said,
+        "The file does not determine where the teeth of 0-1 ~ 0-2 are",
+    );
     // A pinion that may shift across is pushed aside by its teeth.
     let loose = changed(
         text,
@@ -386,7 +389,7 @@ fn gears_that_cannot_mesh_are_told_of() {
     let loose = loose.split("[[expected]]").next().unwrap().to_owned();
     let (_, said, complaint) = run_on("statics", "loose.toml", &loose, &["--spatial"]);
     assert!(
-        said.contains("Where the teeth of 0-1 ~ 0-2:rz are does not follow"),
+        said.contains("The file does not determine where the teeth of 0-1 ~ 0-2:rz are"),
         "{said}{complaint}"
     );
 }

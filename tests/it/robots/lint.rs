@@ -209,7 +209,7 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
     assert_eq!(code, Some(2));
     // A colon or a gap of the line that named the file once stood alone before the reason.
     let reason = |file: &str| {
-        let before = format!("{file}: not looked at: ");
+        let before = format!("{file}: not examined: ");
         let line = out.lines().find_map(|l| l.strip_prefix(&before)).unwrap();
         line.to_owned()
     };

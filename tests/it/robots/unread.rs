@@ -141,7 +141,7 @@ fn what_could_hold_is_reported_and_what_could_not_is_not() {
         assert!(file["left_out"].as_u64() > Some(0), "{more}: {text}");
         assert_eq!(file["certainty_kind"], "as-read", "{more}");
         assert!(
-            text.contains("left out") && text.contains("1 assumption"),
+            text.contains("omitted") && text.contains("1 assumption"),
             "{more}: {text}"
         );
     }

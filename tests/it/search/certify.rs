@@ -73,10 +73,10 @@ fn the_check_is_reported() {
     assert_eq!(v["check"]["primes"].list().len(), 2);
     let v = json(&["search", "four-bar", "--format", "json", "--check", "none"]);
     assert_eq!(v["check"], Value::Null);
-    let says = |check| out(&["search", "four-bar", "--check", check]).contains("Checked: modulo");
+    let says = |check| out(&["search", "four-bar", "--check", check]).contains("Checked: two runs");
     assert!(says("prime") && says("full") && !says("none"));
     let mirror = ["search", "gripper-10", "--one-per-orbit", "--count"];
-    assert!(out(&mirror).contains("Checked: modulo"));
+    assert!(out(&mirror).contains("Checked: two runs"));
 }
 
 #[test]

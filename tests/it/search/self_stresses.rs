@@ -128,7 +128,7 @@ fn shares_of_a_self_stress_add_up() {
                 near(sum, 1.0, 1e-9);
             }
         }
-        has(&text, "borne by");
+        has(&text, "shared by joints");
         assert!(!text.contains("carried at"), "{text}");
     }
 }

@@ -154,7 +154,7 @@ pub(super) fn text(
     let tried = found.tried;
     if found.list.is_empty() {
         return format!(
-            "\n  No single change of {tried} tried ({source}) removes a redundant constraint and leaves all motions as they are\n"
+            "\n  No single change of {tried} tried ({source}) removes a redundant constraint and leaves all motions unchanged\n"
         );
     }
     // The list is sorted, and so are the groups by their firsts.

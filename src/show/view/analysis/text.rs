@@ -200,9 +200,9 @@ impl State<'_> {
         let head = [
             "self-stress in contour",
             "simplest at",
-            "there as",
+            "acts as",
             "",
-            "borne by, share of Σ |F|² + |M|²/ℓ²",
+            "shared by joints, part of Σ |F|² + |M|²/ℓ²",
         ];
         let row = |t: &SelfStress| {
             let (contours, couplings) = (self.contours_of(t), self.couplings_of(t));
@@ -303,7 +303,7 @@ impl State<'_> {
         let snapped = s.snapped.iter().map(|moved| format!("snapped: {moved}"));
         let written = s.as_written.iter().map(|rank| {
             let (w, sigma) = (s.freedoms - rank, s.rows - rank);
-            format!("as written, every digit at its word: mobility {w}, σ = {sigma}")
+            format!("as written, with every digit exact: mobility {w}, σ = {sigma}")
         });
         let primes = s
             .certainty
@@ -312,12 +312,12 @@ impl State<'_> {
         choice.chain(snapped).chain(written).chain(primes)
     }
 
-    /// Returns what planar mode leaves out: "left out in the plane: 1 freedom of joint 3-0".
+    /// Returns what planar mode leaves out: "omitted in the plane: 1 freedom of joint 3-0".
     pub(crate) fn left_out(&self) -> impl Iterator<Item = String> {
         self.found.left_out.iter().map(|&(j, freedoms)| {
             let freedoms = plural(freedoms, "freedom");
             format!(
-                "left out in the plane: {freedoms} of joint {}",
+                "omitted in the plane: {freedoms} of joint {}",
                 self.joint(j)
             )
         })

@@ -168,7 +168,7 @@ pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
     );
     out += match d.sides {
         1 => "It has three jaws.\n",
-        3 => "It has three sides that are alike: all this is of two of them.\n",
+        3 => "It has three equal sides: all this is of two of them.\n",
         _ => "",
     };
     out += &format!("Structure: {}\n", d.name);

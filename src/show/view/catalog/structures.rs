@@ -324,7 +324,7 @@ pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
                 format!("The {n} first ideas, symmetric ones before others")
             };
             let line = format!(
-                "{which}{found}; each stands for {least}as many variants, of which the first is exported:\n"
+                "{which}{found}; each represents {least}the given number of variants, and the first of these is exported:\n"
             );
             let ideas = table(&heads, d.ideas.iter().map(row).collect(), width);
             let mut parts = d.hardware.iter().map(|(to, part)| format!("{to}: {part}"));

@@ -267,17 +267,17 @@ fn endurance(out: &mut String, endurance: &Endurance) -> std::fmt::Result {
     match *endurance {
         Endurance::Lasts { missing } => writeln!(
             out,
-            "  repeated as it stands, the programme latches every swing in the long run, at most {} short",
+            "  repeated unchanged, the programme latches every swing in the long run, at most {} short",
             degrees(missing)
         ),
         Endurance::Drifts { missing } => writeln!(
             out,
-            "  repeated as it stands, the programme still drifts after {PATIENCE} swings, {} short by then",
+            "  repeated unchanged, the programme still drifts after {PATIENCE} swings, {} short by then",
             degrees(missing)
         ),
         Endurance::Fails { after } => writeln!(
             out,
-            "  BUT NOT FOR LONG: of the programme repeated as it stands, {after} swings are latched and the next one misses; the cam must give more"
+            "  BUT NOT FOR LONG: of the programme repeated unchanged, {after} swings are latched and the next one misses; the cam must give more"
         ),
     }
 }

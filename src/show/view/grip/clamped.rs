@@ -205,7 +205,7 @@ impl Clamped<'_> {
         if flat && each.any(|(.., f)| f.axial.abs() > 1e-6 * f.normal) {
             writeln!(
                 out,
-                "Forces along the part are across the plane of motion and left out below; --spatial takes them.\n"
+                "Forces along the part are across the plane of motion and omitted below; --spatial includes them.\n"
             )?;
         }
         Ok(())

@@ -225,7 +225,7 @@ impl ClosureData<'_> {
         if self.loose() > 0 {
             writeln!(
                 out,
-                "  with drives held and contacts let go the jaws have {}, which limit what they can bear",
+                "  with drives held and contacts released the jaws have {}, which limit what they can bear",
                 plural(self.loose(), "free motion")
             )?;
         }

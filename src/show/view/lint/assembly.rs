@@ -78,7 +78,7 @@ pub(super) fn then(now: usize, then: Option<usize>) -> String {
 pub(super) fn count(counted: Option<i64>, mobility: usize) -> String {
     match counted {
         Some(n) if i64::try_from(mobility) != Ok(n) => format!(
-            "  six a part less all constraints would be {n}; the true number of freedoms is {mobility}\n"
+            "  6 freedoms per part less all constraints would be {n}; the true number of freedoms is {mobility}\n"
         ),
         _ => String::new(),
     }

@@ -170,7 +170,7 @@ pub fn words(m: &Mechanism, release: &Release) -> String {
         Release::Coupling(q) => {
             let found = m.couplings_in(StateId::FREE).nth(q);
             let name = found.map_or(String::new(), |c| c.name(m));
-            format!("leave out the coupling {name}")
+            format!("remove the coupling {name}")
         }
         Release::Freedom {
             joint,
@@ -236,7 +236,7 @@ impl PassedOver {
         if self.rigid {
             format!("{file}: nothing is redundant: {why}\n")
         } else {
-            format!("{file}: not looked at: {why}\n")
+            format!("{file}: not examined: {why}\n")
         }
     }
 }

@@ -132,7 +132,7 @@ fn told_of_teeth(out: &mut String, all: &[CouplingForces<'_>]) -> std::fmt::Resu
     if all.iter().any(|c| c.teeth.is_some()) {
         writeln!(
             out,
-            "Teeth push along the pitch circles, and the joints of both gears bear it; their pressure angle and friction are left out"
+            "Teeth push along the pitch circles, and the joints of both gears bear it; their pressure angle and friction are omitted"
         )?;
     }
     let unplaced = all.iter().filter(|c| c.gear && c.teeth.is_none());
@@ -140,7 +140,7 @@ fn told_of_teeth(out: &mut String, all: &[CouplingForces<'_>]) -> std::fmt::Resu
     if !unplaced.is_empty() {
         writeln!(
             out,
-            "Where the teeth of {} are does not follow from the file, and so no joint bears them: gears need parallel axes with points \
+            "The file does not determine where the teeth of {} are, so no joint bears them: gears need parallel axes with points \
              side by side on one link, a rack a slide across the axis on that link, both joints no other freedom that teeth move",
             list(&unplaced)
         )?;

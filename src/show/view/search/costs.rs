@@ -9,17 +9,17 @@ use crate::terms::PairWords;
 const HEAD: &str = "\
 # What a redesign costs, in revolute joints: the default costs, orders of
 # magnitude for machined parts. For each joint that it changes, a search adds
-# the cost of the new type less that of the present one, and `change`, and
+# the cost of the new type less that of the original one, and `change`, and
 # `driven` where a drive holds the joint; for each joint that it puts in series,
 # the cost of its type, `link` and `change`.
 #
 #   ozols show costs > costs.toml
 #   ozols search FILE --costs costs.toml
 #
-# `report`, `draw`, `export` and `fix` take it, too. A line that is
-# left out says nothing: [search.costs] of FILE holds, or the default. What
-# stands at one option of FILE stays. A custom joint costs a revolute joint, and
-# CUSTOM for each freedom beyond the first. Names of FILE's options may stand
+# `report`, `draw`, `export` and `fix` take it, too. If a line is
+# missing, [search.costs] of FILE holds, or the default. The cost at one
+# option of FILE stays. A custom joint costs a revolute joint, and
+# CUSTOM for each freedom beyond the first. Names of FILE's options may be
 # here, too.
 ";
 
@@ -41,7 +41,7 @@ pub fn toml() -> String {
         (
             "driven",
             table.driven,
-            "changing a driven joint, besides: its motor is mounted and guided anew",
+            "changing a driven joint, in addition: its motor is mounted and guided anew",
         ),
         ("link", table.link, "the extra link of a joint in series"),
         (

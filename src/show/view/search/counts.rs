@@ -35,7 +35,7 @@ pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> St
     // Two primes that agree on rounded digits prove nothing.
     if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
         let _ = match check.verdict {
-            Verdict::Agree => writeln!(out, "  Checked: modulo two primes the same"),
+            Verdict::Agree => writeln!(out, "  Checked: two runs with different primes agree"),
             Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
         };
     }
@@ -260,7 +260,7 @@ fn minimal(outcome: &Outcome) -> Option<String> {
     }
     let all = grouped(&minimal);
     if rest.is_zero() {
-        return Some("minimal: each of them, none does with less than another".to_owned());
+        return Some("all are minimal: none has all the freedoms of another".to_owned());
     }
     let idle = match outcome.search.conditions.max_redundant {
         0 => "idle motion",

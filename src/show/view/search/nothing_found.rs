@@ -19,18 +19,18 @@ pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     let mut out = Vec::new();
     if let Some(least) = why.least_redundant {
         out.push(format!(
-            "Every joint at the freest of its options leaves σ = {least}: no choice of them can do"
+            "Even with the freest option at every joint, σ = {least} remains, so no choice of these options is enough"
         ));
         let (driven, others): (Vec<_>, Vec<_>) =
             why.unchanged.iter().partition(|&&j| m.joints[j].drive);
         for (joints, reason) in [(driven, "driven"), (others, "not offered any option")] {
             if !joints.is_empty() {
                 let (stays, it) = match joints.len() {
-                    1 => ("stays as it is for it is", "it"),
-                    _ => ("stay as they are for they are", "them"),
+                    1 => ("stays unchanged, because it is", "it"),
+                    _ => ("stay unchanged, because they are", "them"),
                 };
                 out.push(format!(
-                    "{} {stays} {reason}; `options = [...]` of its own would let the search change {it}",
+                    "{} {stays} {reason}; separate `options = [...]` would let the search change {it}",
                     named(&joints)
                 ));
             }
@@ -38,7 +38,7 @@ pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     }
     if !why.frozen.is_empty() {
         out.push(format!(
-            "Nothing moves the drive {} in the mechanism as it is: it is locked, and variants that keep the output motion stay so",
+            "Nothing moves the drive {} in the original mechanism: it is locked, and variants that keep the output motion stay so",
             named(&why.frozen)
         ));
     }
@@ -52,7 +52,7 @@ pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
         let n = plural_of(&grouped(n), "variant");
         match how {
             Relaxation::OutputChange => format!("{n}, whose outputs move in other ways than now"),
-            Relaxation::FreeDrives => format!("{n}, in which a drive lets go"),
+            Relaxation::FreeDrives => format!("{n}, in which a drive no longer holds"),
             Relaxation::LooseObject => format!("{n}, none of which holds what it grips"),
             Relaxation::PoseOnly => {
                 "the variants that keep the motion in the drawn pose".to_owned()

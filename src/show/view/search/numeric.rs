@@ -53,13 +53,10 @@ pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let tolerance = found.digits.tolerance;
     let looked = grouped(found.looked);
     let mut out = vec![format!(
-        "Numeric, not exact: ranks by singular values at tolerance {tolerance:.0e}, {looked} variants looked at"
+        "Numeric, not exact: ranks by singular values at tolerance {tolerance:.0e}, {looked} variants examined"
     )];
     if found.digits.undecided {
-        out.push(
-            "What the mechanism is meant to be is undecided: small values may be zero or not"
-                .to_owned(),
-        );
+        out.push("The intended geometry is undecided: small values may be zero or not".to_owned());
     }
     let doubtful = &found.admissible.doubtful.total;
     if !doubtful.is_zero() {
@@ -104,7 +101,7 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
             crate::format::cost(milli)
         ),
         None => {
-            "Costs differ too finely to look at variants in their order: none is listed".to_owned()
+            "Costs differ too finely to examine variants in their order: none is listed".to_owned()
         }
     });
     out

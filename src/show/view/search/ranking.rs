@@ -106,9 +106,9 @@ pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let left_out = [
         (
             p.unheld,
-            "left out: no equilibrium, since the loads move an idle freedom",
+            "rejected: no equilibrium, since the loads move an idle freedom",
         ),
-        (p.limited, "left out: beyond a limit"),
+        (p.limited, "rejected: beyond a limit"),
         (
             p.open,
             "keep redundant constraints: scored by their reactions of minimum norm",

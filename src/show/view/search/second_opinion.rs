@@ -77,7 +77,7 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     }
     if let Some(b) = &said.below_present {
         out.push(format!(
-            "Not exact: {} variants have W below {}, which the mechanism has as it is, though options only add freedoms",
+            "Not exact: {} variants have W below {}, which the original mechanism has, although options only add freedoms",
             grouped(&b.variants),
             b.present
         ));

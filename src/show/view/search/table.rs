@@ -73,7 +73,7 @@ pub(in crate::view) fn contours(best: &[Variant<'_>], width: Option<u16>) -> Str
     if let [(one, _)] = &alike[..]
         && one.is_empty()
     {
-        return "\n  σ by contour: none in any, in whatever order they are added\n".to_owned();
+        return "\n  σ by contour: 0 in each, for any order of contours\n".to_owned();
     }
     let head =
         "\n  σ by contour, added in this order (range over all orders of these):\n".to_owned();

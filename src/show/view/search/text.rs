@@ -228,7 +228,7 @@ fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> 
             "export",
             file,
             &joined(&format!("--{number} 1 --to toml -o {toml}")),
-            "the first of the list as a mechanism file of its own",
+            "the first of the list as a separate mechanism file",
         ),
     ];
     let more = (!verbose).then(|| {

@@ -109,7 +109,7 @@ impl<'w> Teller<'w> {
             peaks.map(|(p, unit)| format!("{} {unit} at {}", brief(p.value), self.joint(p.joint)));
         let under = if w.peaks.is_some() { &*self.under } else { "" };
         let rows = [
-            ("lets parts".to_owned(), grouped(lets, ": ")),
+            ("frees parts to".to_owned(), grouped(lets, ": ")),
             ("hardware:".to_owned(), grouped(parts, " at ")),
             (
                 "removes:".to_owned(),
@@ -119,7 +119,10 @@ impl<'w> Teller<'w> {
                 "unchanged:".to_owned(),
                 w.unchanged.iter().map(|&j| self.joint(j)).join(", "),
             ),
-            (format!("hardest used under {under}:"), peaks.join(", ")),
+            (
+                format!("most heavily loaded under {under}:"),
+                peaks.join(", "),
+            ),
         ];
         rows.into_iter().filter(|(_, w)| !w.is_empty()).collect()
     }

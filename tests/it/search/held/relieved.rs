@@ -120,7 +120,7 @@ fn variants_say_where_their_redundant_constraints_are() {
     );
     assert!(lines.next().unwrap().contains(" to "), "{csv}");
     let none = out(&["search", "gripper-10", "--top", "2", "--verbose"]);
-    has(&none, "σ by contour: none in any");
+    has(&none, "σ by contour: 0 in each");
 }
 
 /// A rest that the gripper leaves as it clamps: σ_a is σ clamped less σ free.
@@ -195,9 +195,9 @@ fn where_no_option_can_help_that_is_said() {
     let o = run(&["search", "four-bar", "--options", "revolute", "-q"]);
     let said = String::from_utf8(o.stdout).unwrap();
     assert_eq!(o.status.code(), Some(1));
-    let part = "Every joint at the freest of its options leaves σ = 3: no choice of them can do";
+    let part = "Even with the freest option at every joint, σ = 3 remains, so no choice of these options is enough";
     assert!(said.contains(part), "{said}");
-    has(&said, "stays as it is for it is driven");
+    has(&said, "stays unchanged, because it is driven");
 }
 
 /// The tongs with a ball pivot put at their contact are the tongs with a pad: 1 + 3 motions while nothing is held, for the pad stays
