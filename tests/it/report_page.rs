@@ -216,7 +216,7 @@ fn pages_say_what_is_not_there() {
     let page = out(&["report", "gripper-10", "--max-changes", "1"]);
     has(
         &page,
-        "none remove them all and keep the motion of links 4 and 8",
+        "variants remove them all and keep the motion of links 4 and 8",
     );
     // Where nothing is found it names what finds something, as the search does.
     let next = run(&["search", "gripper-10", "--max-changes", "1"]);

@@ -109,7 +109,7 @@ fn sides_of_three_jaws_are_found() {
         ok(&["catalog", "export", file, id, "-o", &toml]);
         let found = ok(&["catalog", "find", &toml, "--in", file]);
         assert!(
-            found.contains("three sides") && found.contains(id),
+            found.contains("three equal sides") && found.contains(id),
             "{id}: {found}"
         );
         for known in row["ids"].as_str().unwrap().split(',') {
