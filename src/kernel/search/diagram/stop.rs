@@ -16,10 +16,13 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// The first of two reasons that is not [`Stop::Exhausted`].
+    /// Returns the reason for two parts of one search: an interruption, else the first that is not [`Stop::Exhausted`].
     #[must_use]
     pub fn or(self, other: Stop) -> Stop {
-        if self == Stop::Exhausted { other } else { self }
+        match (self, other) {
+            (Stop::Exhausted, _) | (_, Stop::Interrupted) => other,
+            _ => self,
+        }
     }
 
     /// Whether a diagram is cut down to its limits.

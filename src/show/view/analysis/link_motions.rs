@@ -99,12 +99,11 @@ pub(super) fn wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) ->
     let arm = scale(moment, size / length(force));
     let (off, pitch) = (cross(axis, arm), dot(axis, arm));
     let unit = m.length_unit.symbol;
-    let place = match length(off) < ROUNDING * size {
-        true => String::new(),
-        false => {
-            let point = add(real(&m.joints[joint].frame.point), off);
-            format!(" through {} {unit}", place(point))
-        }
+    let place = if length(off) < ROUNDING * size {
+        String::new()
+    } else {
+        let point = add(real(&m.joints[joint].frame.point), off);
+        format!(" through {} {unit}", place(point))
     };
     let along = direction(axis);
     if pitch.abs() < ROUNDING * size {
