@@ -69,7 +69,7 @@ function showIdeas() {
   const left = searchOf().max_redundant;
   const goal = left ? `σ ≤ ${left}` : "σ = 0";
   const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants ${value.asked ? "are found" : `have ${goal} and keep the motion of outputs and drives`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
-  const stopped = found.stop === "interrupted" ? ["The search was stopped: these are the ideas found until then."] : [];
+  const stopped = found.stop === "interrupted" || (desk.stoppedAt === value.revision && !found.exact) ? ["The search was stopped: these are the ideas found until then."] : [];
   const all = found.variants.map(ideaRow);
   const none = found.variants.length ? [] : nothingFound(value);
   return part(...asked, element("p", { class: "counts" }, counts), ...none, element("ol", { class: "idea-list" }, ...all), ...[...stopped, ...(notes ?? [])].map((n) => element("p", { class: "help" }, n)));

@@ -11,6 +11,8 @@ const desk = {
   force: null,
   /** How far the search has come. */
   progress: null,
+  /** The revision whose search the user stopped. */
+  stoppedAt: -1,
   /** How things stand with the file. */
   file: null,
   revision: -1,

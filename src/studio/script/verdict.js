@@ -103,6 +103,7 @@ function nextSteps(s) {
 
 function stopSearch({ target }) {
   target.disabled = true;
+  desk.stoppedAt = desk.revision;
   return post("stop", {});
 }
 
