@@ -289,7 +289,7 @@ fn found(
     Ok(())
 }
 
-/// Returns the least cost of some ideas, in thousandths; `None` where there are none.
+/// Returns the least cost of some ideas, in thousandths; `None` if there are none.
 fn best_cost(ideas: &[IdeaRow]) -> Option<i64> {
     ideas.iter().map(|i| i.cost_milli).min()
 }

@@ -323,13 +323,13 @@ pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     diagrams.map_or_else(Vec::new, |d| rows(search, search.ideas(d, SEEN * top), top))
 }
 
-/// Ideas that are looked at for each that is kept: many differ in directions alone, or are not symmetric.
+/// Number of ideas examined per idea kept: many differ only in directions, or are not symmetric.
 const SEEN: usize = 5;
 
 /// The joints that an idea changes, each with the type that is put there and what is put in series with it.
 type Types = Vec<(JointId, &'static str, Option<usize>)>;
 
-/// Returns what an idea changes, whatever its directions.
+/// Returns what an idea changes, without the directions of joints.
 fn types(search: &Search, idea: &Idea) -> Types {
     let chosen = search.space.variables.iter().zip(&idea.first.choices);
     let types = chosen.filter(|(_, c)| **c != 0).flat_map(|(v, &c)| {

@@ -37,8 +37,8 @@ pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
     m
 }
 
-/// Returns a copy in which the points are stretched along each coordinate axis, by up to a share of their coordinates. What is searched
-/// stays.
+/// Returns a copy in which the points are stretched along each coordinate axis, by up to a share of their coordinates. Options
+/// and ranking are unchanged.
 pub(crate) fn stretched(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
     let mut m = mechanism.clone();
     #[allow(clippy::cast_possible_truncation, reason = "near a million")]

@@ -119,12 +119,12 @@ pub fn toggles(levels: usize, noise: &mut Noise) -> String {
     file.text("toggles")
 }
 
-/// What the joints of a random ladder move in.
+/// The motions of the joints of a random ladder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scene {
     /// Hinges across one plane.
     Plane,
-    /// Hinges, balls, universal and cylindrical joints across one plane: what is in the plane and what is out of it fall apart.
+    /// Hinges, balls, universal and cylindrical joints across one plane: the equations split into those in the plane and those out of it.
     AboutPlane,
     /// Hinges through one point.
     Sphere,

@@ -77,8 +77,8 @@ fn maps(store: &Store, sql: &str) -> Result<Vec<Map<String, Value>>, StoreError>
     Ok(rows.into_iter().map(map).collect())
 }
 
-/// Returns each structure with a layout and each drawn mechanism: the data of its card, and what is told of it once it is chosen, its
-/// files and ideas.
+/// Returns each structure with a layout and each drawn mechanism: the data of its card, and its files and ideas,
+/// which the page shows once it is chosen.
 fn cards(store: &Store) -> Result<Vec<(Value, Value)>, StoreError> {
     let mut ideas: BTreeMap<String, Vec<Map<String, Value>>> = BTreeMap::new();
     for mut idea in maps(store, IDEAS)? {

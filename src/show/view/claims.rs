@@ -23,9 +23,9 @@ fn verdict(claim: &Claim) -> &'static str {
     }
 }
 
-/// Returns a line that counts the claims, with a table of them if `verbose`; empty if there are none.
+/// Returns a line that counts the claims; empty if there are none.
 #[must_use]
-pub(crate) fn text(claims: &[&Claim], width: Option<u16>, verbose: bool) -> String {
+pub(crate) fn counted(claims: &[&Claim]) -> String {
     if claims.is_empty() {
         return String::new();
     }
@@ -34,14 +34,19 @@ pub(crate) fn text(claims: &[&Claim], width: Option<u16>, verbose: bool) -> Stri
         0 => String::new(),
         n => format!(", {n} refuted if the scan of the text is right"),
     };
-    let counted = format!(
+    format!(
         "\n  Published about this mechanism: {}, {} confirmed, {} refuted{scanned}\n",
         plural(claims.len(), "claim"),
         count(CONFIRMED),
         count(REFUTED),
-    );
-    if !verbose {
-        return counted;
+    )
+}
+
+/// Returns the same with a table of the claims.
+#[must_use]
+pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
+    if claims.is_empty() {
+        return String::new();
     }
     let rows = claims.iter().map(|c| {
         let mut why = match &c.right {
@@ -54,5 +59,6 @@ pub(crate) fn text(claims: &[&Claim], width: Option<u16>, verbose: bool) -> Stri
         vec![c.source.clone(), c.says.clone(), verdict(c).to_owned(), why]
     });
     let head = ["where", "claim", "so", "evidence"];
-    format!("{counted}\n{}\n", table(&head, rows.collect(), width))
+    let table = table(&head, rows.collect(), width);
+    format!("{}\n{table}\n", counted(claims))
 }

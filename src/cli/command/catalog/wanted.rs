@@ -35,7 +35,7 @@ pub(super) struct WantedGrippers {
     cost: Option<f64>,
 }
 
-/// What is told of each gripper. Forces for a newton and for a newton metre of the drive are no one figure.
+/// The columns of a gripper. The forces per newton and per newton metre of the drive have a column each.
 const COLUMNS: &str = "SELECT id, links, input, symmetry AS layout, jaws, iif(reached AND shortfall IS NULL, 'yes', 'no') AS does_task, \
      iif(input = 'slide', least_force, NULL) AS force_per_newton, iif(input = 'turn', least_force, NULL) AS force_per_newton_metre, \
      force_ratio, turn, transmission, pin_force, price, cost FROM grippers";
@@ -56,7 +56,7 @@ struct Filter {
     holds: String,
     /// The best existing value, in SQL and in words. `None` if the bound is not a number.
     best: Option<(String, String)>,
-    /// The column that answers are sorted by, the best first; nothing where it is no number.
+    /// The column that answers are sorted by, the best first. `None` if the bound is not a number.
     sorted: Option<String>,
 }
 

@@ -181,7 +181,7 @@ pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) 
             .map(|half| 10f64.powf(f64::from(half) / 2.0))
             .collect(),
         view: View::Best,
-        advice: "Leave --tolerance at its default in double precision; single precision wants a finer one than its default.",
+        advice: "Leave the tolerance at its default in double precision; in single precision choose a finer one.",
         rows: Vec::new(),
     };
     let tolerances = study.values.clone();

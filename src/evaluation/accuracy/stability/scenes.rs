@@ -1,4 +1,4 @@
-//! What a smaller model of a scene is worth, and whether the first idea stays first when costs and proportions move.
+//! The value of a smaller model of a scene, and whether the first idea stays first if costs and proportions change.
 
 use super::study::{Effort, Progress, Study, View};
 use crate::accuracy::cases::Case;
@@ -25,8 +25,8 @@ const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
 /// Contours up to which a plane is searched.
 const SEARCHED: usize = 4;
 
-/// Returns the study of the least model of a scene (the rows of the closure equations that matter) against all rows in space: the rank,
-/// and the counts of a search, with their time as a multiple of the time by all rows. The answer by all rows is the truth.
+/// Returns the study of the least model of a scene, the rows of the closure equations that matter. It compares the rank, and the counts of a
+/// search, with those by all rows in space, which are the truth. Times are multiples of the time by all rows.
 pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let each = if effort.quick { 4 } else { 32 };
     let study = Study {
@@ -36,8 +36,7 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         column: "contours",
         values: CONTOURS.map(|k| k as f64).to_vec(),
         view: View::Ratios,
-        advice: "Nothing: a search takes the least rows by itself, where they pay. For a single rank all rows are faster than finding \
-                 the least. A planar mode that does not apply is refused, with the joint named.",
+        advice: "Nothing: a search takes the least rows by itself. For a single rank all rows are faster than finding the least. If planar mode omits freedoms, the analysis names their joints.",
         rows: Vec::new(),
     };
     let rows = Scene::ALL.map(Scene::name).into_iter();
@@ -111,8 +110,8 @@ fn compared<T: PartialEq>(m: &Mechanism, all: (T, Timing), least: (T, Timing)) -
     Reply::new(said, || m.name.clone()).taking(times.unwrap_or(1.0))
 }
 
-/// Returns the study of the first idea. A change of x multiplies the cost of each joint type, or each coordinate of all points, by a factor
-/// of its own between 1 - x and 1 + x.
+/// Returns the study of the first idea. A change of x multiplies the cost of each joint type by a random factor between 1 - x and 1 + x.
+/// Under a ranking it multiplies the coordinates along each axis instead.
 pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let (each, values): (usize, &[f64]) = if effort.quick {
         (1, &[0.01, 0.05])
@@ -148,7 +147,7 @@ pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>)
         column: "change",
         values: values.to_vec(),
         view: View::Best,
-        advice: "Look at the ideas of nearly the same cost too: where the first does not stay first, they are as good.",
+        advice: "Look at the ideas of nearly the same cost too: if the first does not stay first, one of them does.",
         rows: Vec::new(),
     };
     let names = [
@@ -159,22 +158,19 @@ pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>)
     study.asked(names, ideas.len() * each, progress, |v, n| {
         let (m, before) = &ideas[n / each];
         let noise = &mut Noise::new(effort.seed, n);
-        let priced = repriced(m, values[v], noise);
-        let reply = |right: bool| Reply::new(Said::judge(true, false, right), String::new);
-        let now = |m: &Mechanism| Some(first(m, 1)?.swap_remove(0));
-        let priced = now(&priced);
-        let cheapest = m.ranking.is_none();
-        let stays = priced.as_ref().filter(|_| cheapest);
-        let loaded = if cheapest {
-            None
+        let ranked = m.ranking.is_some();
+        let changed = if ranked {
+            stretched(m, values[v], noise)
         } else {
-            now(&stretched(m, values[v], noise))
+            repriced(m, values[v], noise)
         };
-        vec![
-            stays.map(|now| reply(*now == before[0])),
-            stays.map(|now| reply(before.contains(now))),
-            loaded.map(|now| reply(now == before[0])),
-        ]
+        let now = first(&changed, 1).map(|mut ideas| ideas.swap_remove(0));
+        let reply = |right: bool| Reply::new(Said::judge(true, false, right), String::new);
+        let stays = now.as_ref().map(|now| reply(*now == before[0]));
+        if ranked {
+            return vec![None, None, stays];
+        }
+        vec![stays, now.map(|now| reply(before.contains(&now))), None]
     })
 }
 

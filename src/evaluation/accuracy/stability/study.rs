@@ -151,7 +151,7 @@ impl Study {
                     points: self.values.iter().map(|b| (*b, bound(degree, *b))).collect(),
                     style: Style::Dashed,
                 });
-                let about = format!("Wrong ranks. Bound of Schwartz and Zippel: {degree} over the least prime of each size.");
+                let about = format!("Share of wrong ranks. Bound of Schwartz and Zippel: {degree} over the least prime of each size.");
                 self.chart(about, "wrong ranks, %", Scale::LogAndZero(-3), series)
             }
         }

@@ -45,8 +45,8 @@ impl Request {
         self.options.iter().any(|name| name == ANY)
     }
 
-    /// Offers every set of freedoms in its own frame at each joint that may change, but that of a joint which is not there: 30 beside
-    /// the present one at a hinge in space. A set that is a type has its name.
+    /// Offers every set of freedoms in its own frame at each joint that may change, except the set of all: 30 in
+    /// addition to the original one at a hinge in space. A set that is a type has its name.
     fn offer_any(&self, mechanism: &mut Mechanism) {
         use Freedom::{Rx, Ry, Rz, Tx, Ty, Tz};
         let changeable = |j: &JointId| is_changeable(&mechanism.joints[*j]);

@@ -52,10 +52,10 @@ impl<C: Count> Tally<C> {
     }
 }
 
-/// Counts of whole variants by key, with no more than two layers' tables held at a time; `None` where even these would take
-/// more than some bytes.
+/// Counts of whole variants by key, with no more than two layers' tables held at a time; `None` if even these would take
+/// more than the given bytes.
 ///
-/// Where a layer has one node, what comes before it and what follows are chosen independently. Each part is counted by itself, and the
+/// If a layer has one node, the choices before it and after it are independent. Each part is counted by itself, and the
 /// counts are multiplied: tables within a part have no more keys than the part.
 ///
 /// # Complexity
@@ -82,7 +82,7 @@ pub(crate) fn totals<C: Count>(diagram: &Diagram, steps: &Steps, bytes: usize) -
     Some(if tables.is_empty() { Vec::new() } else { whole })
 }
 
-/// The counts of what is put together of one of each of two tables, by the sums of keys; `None` where they would take more than some
+/// Returns the counts of all pairs of an entry of each table, by the sums of their keys; `None` if they would take more than the given
 /// bytes.
 ///
 /// # Complexity

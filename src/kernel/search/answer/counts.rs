@@ -125,8 +125,7 @@ pub(crate) fn counts(question: &Question, diagram: &Diagram, filter: bool) -> Co
     counts
 }
 
-/// Counts the variants of a diagram by W and by changes, but not by both: of hundreds of joints there are thousands of each, and
-/// millions of pairs. `filter` applies the conditions on mobility and changes too.
+/// Returns the counts by W and by changes, but not by both: with hundreds of joints there are thousands of each, and millions of pairs. `filter` applies the conditions on mobility and changes too.
 #[must_use]
 pub(crate) fn sums(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     let of = |kinds| wanted_by(question, diagram, filter, kinds);
@@ -153,7 +152,7 @@ pub(crate) fn sums(question: &Question, diagram: &Diagram, filter: bool) -> Coun
     counts
 }
 
-/// Counts the variants of a diagram where there is no memory to tell them apart.
+/// Returns the total alone, if there is no memory for counts by kind.
 fn only_total(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     Counts {
         only_total: true,
@@ -162,8 +161,8 @@ fn only_total(question: &Question, diagram: &Diagram, filter: bool) -> Counts {
     }
 }
 
-/// How many variants a diagram has of each kind; with `filter` those that meet the conditions on mobility and changes, which are then
-/// told apart by these, too. `None` as of [`totals_by`].
+/// Returns the number of variants of each kind; with `filter` only those that meet the conditions on mobility and changes, and by these
+/// kinds too. Returns `None` as [`totals_by`] does.
 fn wanted_by(
     question: &Question,
     diagram: &Diagram,
@@ -214,7 +213,7 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
     count(question, diagram, kinds)
 }
 
-/// Bits that suffice for the number of a diagram's variants, which a sum of fewer terms does not exceed.
+/// Returns a number of bits that is enough for the number of variants, which no partial sum exceeds.
 fn bits(question: &Question, diagram: &Diagram) -> u64 {
     let all = question.space.size().bits();
     let mut below = vec![1.0; diagram.terminals.len()];

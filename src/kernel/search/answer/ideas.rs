@@ -2,8 +2,8 @@
 //!
 //! Ideas come in order of cost; of equal cost those first whose shown variant is its own image, then those that put in fewer kinds of
 //! joints, then those that keep the drive and the pivots in the frame ([`preference`](crate::search::question::preference)), then
-//! those with less mobility and fewer changes. Of mechanisms with more than 24 joints ideas are in order of cost alone, and of
-//! more than 512 ideas of one cost each so many are ordered by themselves.
+//! those with less mobility and fewer changes. Of mechanisms with more than 24 joints ideas are in order of cost alone. If
+//! more than 512 ideas have one cost, each 512 of them are ordered by themselves.
 
 mod preferred;
 

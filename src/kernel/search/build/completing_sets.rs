@@ -31,7 +31,7 @@ pub(in crate::search) fn set(nodes: usize, mut is_in: impl FnMut(usize) -> bool)
     out
 }
 
-/// The nodes of a set, ascending.
+/// Returns the nodes of a set in ascending order.
 pub(in crate::search) fn nodes(set: &[u64]) -> impl Iterator<Item = usize> {
     set.iter().enumerate().flat_map(|(place, &word)| {
         let more = |bits: &u64| Some(bits & (bits - 1)).filter(|b| *b != 0);

@@ -1,9 +1,9 @@
-//! Which nodes of both halves complete each other, told by what they span in contours and by how kept links move with it.
+//! The nodes of both halves that complete each other, by the space that they span in contours and the motion of kept links.
 //!
-//! What a node spans in the coordinates of contours is one of few spaces, where many nodes differ only in how kept links move. Whether two
-//! such spaces together are the whole is asked once. What both have in common closes every contour twice, once from each half, and kept
-//! links must move alike with it: a number tells how they do, and nodes with the same number complete each other. So nodes are looked up
-//! and not compared in pairs.
+//! Nodes span few different spaces in the coordinates of contours; many differ only in how kept links move. So each pair of spaces is
+//! examined once: together they must span all coordinates. Their intersection closes every contour twice, once from each half, and kept
+//! links must move in the same way with it. A number identifies that motion, and nodes with the same number complete each other. Nodes are
+//! therefore looked up, and not compared in pairs.
 
 use crate::linalg::echelon::{combination, relations};
 use crate::linalg::modp::{Field, Residue};
@@ -12,12 +12,12 @@ use crate::search::diagram::DEAD;
 use hashbrown::HashMap;
 use rayon::prelude::*;
 
-/// The motion of kept links with all that two spaces have in common is told by one sum over a basis of it, each times a power of this, as
-/// the coordinates of kept links are by a power of another number.
+/// The motion of kept links with the intersection of two spaces is identified by a sum over a basis, weighted by powers of this number. The
+/// coordinates of kept links are weighted by powers of another number.
 const WEIGHT: i64 = 0x2545_f491_4f6c_dd1d;
-/// Groups looked at before it is asked whether all is cancelled.
+/// Number of groups between two checks for cancellation.
 const BATCH: usize = 16;
-/// Lookups of nodes that take about as long as it takes to find what two spaces have in common.
+/// Number of lookups that take about as long as one intersection of two spaces.
 const LOOKUPS: usize = 200;
 
 /// The nodes that span the same space of contours.
@@ -65,8 +65,8 @@ pub(super) fn lookups(front: &Grouped, back: &Grouped) -> usize {
     a * b * LOOKUPS + front.nodes * b + back.nodes * a
 }
 
-/// For each node of the front the set of those of the back that complete it; `None` where the sets take more than some bytes, or where it
-/// is cancelled. `told` hears how many nodes are done.
+/// Returns for each node of the front the set of nodes of the back that complete it; `None` if the sets take more than the given bytes, or
+/// if cancelled. `told` receives the number of nodes done.
 ///
 /// # Complexity
 /// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.
@@ -103,7 +103,7 @@ pub(super) fn matched(
 /// Sets of nodes of the back, each with the nodes of the front that it completes.
 type Completed = Vec<(Set, Vec<usize>)>;
 
-/// Returns what completes the nodes of a group, alike ones together.
+/// Returns the sets that complete the nodes of a group, each set once.
 fn completed(field: Field, width: usize, group: &Alike, back: &Grouped) -> Completed {
     // Nodes of the back that move kept links alike with what they have in common with the group, where a node of it does so, too.
     let mut alike: Vec<Vec<usize>> = Vec::new();
@@ -150,13 +150,13 @@ fn completed(field: Field, width: usize, group: &Alike, back: &Grouped) -> Compl
     different.into_iter().map(of).collect()
 }
 
-/// What the space of a group and that of one of the other half have in common: the sum of a basis, in factors of the rows of each.
+/// The intersection of the spaces of two groups: the weighted sum of a basis, as factors of the rows of each group.
 struct Common {
     front: Vec<Residue>,
     back: Vec<Residue>,
 }
 
-/// Returns what two groups have in common; `None` where they do not span all coordinates together.
+/// Returns the intersection of two groups; `None` if they do not span all coordinates together.
 fn common(field: Field, width: usize, front: &Alike, back: &Alike) -> Option<Common> {
     let missing = width - front.rows.len();
     if back.rows.len() < missing {

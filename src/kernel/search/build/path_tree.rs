@@ -91,8 +91,8 @@ impl PathTree {
         bases
     }
 
-    /// The tree of nodes that have such bases in place of their paths: where many are alike but for where they come from, more of these
-    /// begin alike.
+    /// Returns the tree of nodes with these bases in place of their paths. More of these begin with the same vectors, if many nodes differ
+    /// only in their paths.
     pub(super) fn of_bases(field: Field, bases: &[Vec<Vec<Residue>>]) -> PathTree {
         let mut known: HashMap<&[Residue], usize> = HashMap::new();
         let mut vectors = Vectors {

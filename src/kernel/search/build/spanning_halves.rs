@@ -35,7 +35,7 @@ pub(in crate::search) struct Halves<'a> {
     pub(in crate::search) already: u32,
     /// When the coordinates of contours are in use, and how many there are of kept links.
     contours: Vec<Lifetime>,
-    /// Whether the motion of kept links is told, by the number behind those of contours.
+    /// Whether vectors have a number for the motion of kept links behind the coordinates of contours.
     keeps: bool,
     /// Where each part starts, and the number of variables at the end.
     starts: Vec<usize>,
@@ -177,7 +177,7 @@ pub(in crate::search) struct Behind {
     added: Vec<Vec<Vec<usize>>>,
     /// Coordinates of contours that the stages before reach, too.
     pub(in crate::search) live: usize,
-    /// Whether the motion of kept links is told.
+    /// Whether vectors have a number for the motion of kept links.
     keeps: bool,
 }
 
@@ -212,7 +212,7 @@ impl Behind {
         rows.unpack(arithmetic, width, matrix);
     }
 
-    /// The same with a number of kept links whether it is told or not.
+    /// Returns the same with a number for kept links, 0 if vectors have none.
     fn rows(&self, matrix: &[Residue]) -> Vec<Vec<Residue>> {
         let mut rows = Rows::default();
         self.unpacked(&mut Arithmetic::new(self.vectors.field), matrix, &mut rows);
@@ -230,13 +230,13 @@ pub(in crate::search) struct Meeting {
     behind: Behind,
     /// The paths from the back, for pairs of nodes.
     tree: PathTree,
-    /// The nodes of both halves, where it takes less time to look them up than to look at all pairs.
+    /// The nodes of both halves, if looking them up takes less time than comparing all pairs.
     grouped: Option<[Grouped; 2]>,
     pairs: usize,
 }
 
 impl Meeting {
-    /// Returns how many pairs of nodes are looked at: none where nodes are looked up.
+    /// Returns the number of pairs of nodes to compare; 0 if nodes are looked up.
     pub(in crate::search) fn pairs(&self) -> usize {
         if self.grouped.is_some() {
             0

@@ -262,7 +262,7 @@ fn without_twins(mut back: Vec<Layer>, sets: Vec<Set>) -> (Vec<Layer>, Vec<Set>)
 }
 
 /// The front's layers, and from there on layers of the sets of nodes of the back that complete what was chosen, of which `of_front` has
-/// the numbers; none where they are more than so many nodes.
+/// the numbers; `None` if they are more than `most` nodes.
 fn put_together(
     mut layers: Vec<Layer>,
     of_front: &[u32],

@@ -16,7 +16,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// Returns the reason for two parts of one search: an interruption, else the first that is not [`Stop::Exhausted`].
+    /// Returns the reason for two parts of one search: an interruption, otherwise the first that is not [`Stop::Exhausted`].
     #[must_use]
     pub fn or(self, other: Stop) -> Stop {
         match (self, other) {

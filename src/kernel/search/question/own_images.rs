@@ -1,5 +1,5 @@
-//! Which joint each becomes in a mirror, or by half or a third of a turn, that carries the mechanism over to itself: as the file says,
-//! or as its geometry has it where the file says nothing.
+//! The image of each joint under a mirror, or under half or a third of a turn, that maps the mechanism to itself: as the file says, or, if
+//! it says nothing, as the geometry shows.
 
 use crate::closure::mirror::Plane;
 use crate::closure::symmetry_image::{Carrier, Spot};

@@ -16,7 +16,7 @@ use thiserror::Error;
 pub enum MirrorError {
     /// A file that names no images, of a mechanism that has none.
     #[error(
-        "no mirror, no half turn and no third of a turn was found that carries {mechanism} over to itself; correct its points and axes, or name the images: `mirror = [[\"joint\", \"its image\"], ...]` under [search]"
+        "no mirror, half turn or third of a turn maps {mechanism} to itself; correct its points and axes, or name the images: `mirror = [[\"joint\", \"its image\"], ...]` under [search]"
     )]
     NoPairs {
         /// Name of the mechanism.

@@ -13,13 +13,13 @@ function short(x) {
   return x === null || x === undefined ? '–' : String(+Number(x).toPrecision(3));
 }
 
-/** A list that stands in the page deflated, in base64. */
+/** Returns a list that the page has deflated, in base64. */
 function unpacked(list) {
   const bytes = Uint8Array.from(atob(list), (c) => c.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).json();
 }
 
-/** Gives a card its files and ideas, those of the cards beside it, too. */
+/** Gives a card, and its neighbours in the list, their files and ideas. */
 async function complete(c) {
   if (c.ideas) return;
   const first = c.place - (c.place % packed.together);

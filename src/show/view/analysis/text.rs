@@ -5,7 +5,7 @@ use crate::format::{list, plural, plural_of};
 use crate::model::claim::Topic;
 use crate::model::mechanism::{LinkId, Role};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
-use crate::redundancy::stress::{JointWrench, SelfStress};
+use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::{idle, link_motions, suggestions};
 use crate::view::terminal::layout::{fit, table};
 use crate::view::{as_read, claims, span};
@@ -30,15 +30,13 @@ impl Analysis<'_> {
             }
             out
         });
-        fit(
-            &(states.collect_vec().join("\n")
-                + &claims::text(
-                    &claims::about(&self.mechanism.claims, Topic::Structure),
-                    width,
-                    verbose,
-                )),
-            width,
-        )
+        let published = claims::about(&self.mechanism.claims, Topic::Structure);
+        let published = if verbose {
+            claims::text(&published, width)
+        } else {
+            claims::counted(&published)
+        };
+        fit(&(states.collect_vec().join("\n") + &published), width)
     }
 }
 
@@ -96,7 +94,10 @@ impl State<'_> {
             return self.write_self_stresses(out, width);
         }
         let stresses = &s.self_stresses;
-        let harmless = stresses.iter().filter(|t| harm(t) == "harmless").count();
+        let harmless = stresses
+            .iter()
+            .filter(|t| t.verdict == StressVerdict::Harmless)
+            .count();
         match (stresses.len(), harmless) {
             (0, _) => Ok(()),
             (1, 0) => writeln!(out, "  It strains the joints if parts are inaccurate."),
@@ -312,7 +313,7 @@ impl State<'_> {
         choice.chain(snapped).chain(written).chain(primes)
     }
 
-    /// Returns what planar mode leaves out: "omitted in the plane: 1 freedom of joint 3-0".
+    /// Returns what planar mode omits: "omitted in the plane: 1 freedom of joint 3-0".
     pub(crate) fn left_out(&self) -> impl Iterator<Item = String> {
         self.found.left_out.iter().map(|&(j, freedoms)| {
             let freedoms = plural(freedoms, "freedom");

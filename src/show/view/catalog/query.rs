@@ -35,7 +35,7 @@ impl Serialize for QueryAnswer {
     }
 }
 
-/// A value as it is.
+/// Returns a value without grouping or rounding.
 fn bare(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -44,7 +44,7 @@ fn bare(value: &Value) -> String {
     }
 }
 
-/// A value for people.
+/// Returns a value for people.
 pub(super) fn cell(value: &Value) -> String {
     match value {
         Value::Null => "-".to_owned(),
@@ -85,7 +85,7 @@ fn head(name: &str) -> String {
 }
 
 impl QueryAnswer {
-    /// As a table for people.
+    /// Returns the answer as a table for people.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
@@ -94,7 +94,7 @@ impl QueryAnswer {
         format!("{}\n", table(&heads, rows.collect(), width))
     }
 
-    /// As CSV, numbers as they are.
+    /// Returns the answer as CSV, with unrounded numbers.
     #[must_use]
     pub fn csv(&self) -> String {
         let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();

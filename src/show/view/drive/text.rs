@@ -26,7 +26,7 @@ pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
         Some(design) => designed(&mut out, d, design, width),
         None => refused(&mut out, d, width),
     };
-    out += &claims::text(&about(&d.file.claims, Topic::Drive), width, true);
+    out += &claims::text(&about(&d.file.claims, Topic::Drive), width);
     fit(&out, width)
 }
 

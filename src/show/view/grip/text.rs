@@ -72,7 +72,7 @@ fn write(out: &mut String, g: &GripReport<'_>, width: Option<u16>) -> std::fmt::
     write!(
         out,
         "{}",
-        claims::text(&claims::about(&g.file.claims, Topic::Grip), width, true)
+        claims::text(&claims::about(&g.file.claims, Topic::Grip), width)
     )
 }
 

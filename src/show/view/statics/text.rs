@@ -136,7 +136,7 @@ fn write_statics(out: &mut String, s: &StaticsData<'_>, width: Option<u16>) -> s
             figure(dead.condition)
         )?;
     }
-    write!(out, "{}", claims::text(&s.claims, width, true))
+    write!(out, "{}", claims::text(&s.claims, width))
 }
 
 /// The greatest reaction of the cycle, for the first line; nothing without loads.
