@@ -387,14 +387,15 @@ fn why_a_structure_has_no_layout_is_said() {
     assert_eq!(whys.values().sum::<i32>(), 48, "{whys:?}");
     assert!(whys.contains_key("the drive cannot move"), "{whys:?}");
     let strict = Limits {
-        transmission: 89.9,
+        ratio: 1.5,
+        crossings: 0,
         ..Limits::default()
     };
     let turning = form(Input::Turn, Symmetry::Generic, false);
     let mut refused = 0;
     each(6, &[turning], |_, s| {
         let found = layout(&s, &strict, 1);
-        refused += usize::from(found.is_err_and(|e| e.to_string().contains("transmission angle")));
+        refused += usize::from(found.is_err_and(|e| e.to_string().contains("links of 1 : ")));
     });
     assert!(refused > 0);
 }

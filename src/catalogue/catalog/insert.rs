@@ -126,7 +126,6 @@ fn layout(t: &Transaction<'_>, id: &str, laid: &Laid) -> rusqlite::Result<()> {
             ("start", &laid.layout.start),
             ("crossings", &number(l.crossings)),
             ("link_ratio", &rounded(l.ratio)),
-            ("transmission", &rounded(l.transmission)),
             ("area", &rounded(area(laid))),
             ("opening_min", &rounded(f.openings[0])),
             ("opening_max", &rounded(f.openings[1])),

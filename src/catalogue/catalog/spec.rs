@@ -54,8 +54,6 @@ pub struct Spec {
     pub seed: u64,
     /// The longest link over the shortest at most.
     pub ratio: f64,
-    /// The least transmission angle, in degrees.
-    pub transmission: f64,
     /// Crossings of links at most.
     pub crossings: usize,
     /// Nodes of each diagram at most.
@@ -93,7 +91,6 @@ impl Default for Spec {
             ideas: 10,
             seed: 1,
             ratio: limits.ratio,
-            transmission: limits.transmission,
             crossings: limits.crossings,
             nodes: 1_000_000,
             workload: Workload::default(),
@@ -315,7 +312,6 @@ impl Spec {
     pub fn limits(&self) -> Limits {
         Limits {
             ratio: self.ratio,
-            transmission: self.transmission,
             crossings: self.crossings,
             task: self.task,
         }
@@ -333,7 +329,6 @@ impl Spec {
         whole("nodes", self.nodes, 1, 100_000_000)?;
         whole("at_most", self.at_most, 1, 12)?;
         within("ratio", self.ratio, 0, 1000)?;
-        within("transmission", self.transmission, 0, 90)?;
         let w = &self.workload;
         within("closing", w.closing, 0, 1_000_000)?;
         within("part", w.part, 0, 1_000_000)?;
@@ -369,6 +364,9 @@ impl Spec {
         }
         within("least_force", t.least_force, 0, 1_000_000)?;
         within("force_ratio", t.force_ratio, 1, 1_000_000)?;
+        within("transmission", t.transmission, 0, 90)?;
+        within("pin_force", t.pin_force, 0, 1_000_000)?;
+        within("efficiency", t.efficiency, 0, 1)?;
         for side in t.room {
             within("room", side, 0, 1_000_000)?;
         }

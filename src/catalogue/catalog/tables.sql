@@ -31,7 +31,6 @@ CREATE TABLE layouts (
   start INTEGER NOT NULL,          -- the start of the search for places it was found from
   crossings INTEGER NOT NULL,      -- of links, and pins on links they are no part of
   link_ratio REAL NOT NULL,        -- longest link over shortest
-  transmission REAL NOT NULL,      -- worst transmission angle of a rod, degrees
   area REAL NOT NULL,              -- of the box round pins, tips and pitch circles, mm2
   opening_min REAL NOT NULL,       -- of what is reached of the task's stroke, mm; of three jaws twice the tips' mean distance from the middle
   opening_max REAL NOT NULL,

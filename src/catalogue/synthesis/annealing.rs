@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 
 /// Places at the end of a start.
 pub(super) struct FoundPlaces {
-    /// Whether the drawn pose keeps the limits, or links that cross pass each other in planes of their own.
+    /// Whether the drawing keeps the limits, or links that cross pass each other in planes of their own.
     pub(super) within: bool,
     /// Whether the stroke does what the task asks.
     does: bool,
@@ -53,13 +53,16 @@ impl FoundPlaces {
     }
 }
 
-/// Starts of a search for places at most, for each way of lying: half of them where what is balanced does the task.
+/// Starts of a search for places at most, for each way of lying.
 pub(super) const STARTS: u32 = 12;
+/// Of the starts none of which becomes good so many, the best, are taken to their ends; more where none of these keeps the limits of the
+/// drawing.
+const TO_THE_END: usize = 4;
 
 /// The best places of some starts of a structure of this name, the first good ones being enough; `None` where all end in singular poses.
 ///
 /// Starts that lag behind are given up. Where none becomes good, the best are taken to their ends until one does the task and can
-/// be built, and then others are tried.
+/// be built.
 pub(super) fn best_of_starts<'a>(
     sketch: &Sketch<'a>,
     judge: &mut Judge<'a>,
@@ -71,24 +74,25 @@ pub(super) fn best_of_starts<'a>(
         let random = random(name, seed, start);
         search_from(sketch, judge, random, start, patience)
     };
-    let end = first + STARTS;
-    let (racing, patience) = match sketch.limits.task.aim {
-        Aim::Balanced => (first..first + STARTS / 2, Patience::Racing),
-        Aim::Force => (first..end, Patience::Whole),
+    let patience = match sketch.limits.task.aim {
+        Aim::Balanced => Patience::Racing,
+        Aim::Force => Patience::Whole,
     };
-    let others = (racing.end..end).map(|start| (start, None));
     let mut raced = Vec::new();
-    for found in racing.filter_map(|start| search(start, patience)) {
+    for found in (first..first + STARTS).filter_map(|start| search(start, patience)) {
         if found.are_good(sketch) {
             return Some(found);
         }
         raced.push(found);
     }
     raced.sort_by(FoundPlaces::compare);
-    let raced = raced.into_iter().map(|found| (found.start, Some(found)));
-    let mut best = None;
-    for (start, found) in raced.chain(others) {
-        let ended = found.filter(|found| !found.given_up);
+    let mut best: Option<FoundPlaces> = None;
+    for (n, found) in raced.into_iter().enumerate() {
+        if n >= TO_THE_END && best.as_ref().is_some_and(|b| b.within) {
+            break;
+        }
+        let start = found.start;
+        let ended = Some(found).filter(|found| !found.given_up);
         let Some(found) = ended.or_else(|| search(start, Patience::Whole)) else {
             continue;
         };
@@ -257,9 +261,13 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
         (all <= most).then_some(all)
     }
 
-    /// Whether the places do what the task asks.
-    fn does(&mut self) -> bool {
-        let stroke = self.judge.coarse(&self.at, f64::INFINITY);
+    /// Whether the places, the cheapest so far, cost so little by their stroke and do what the task asks at all its poses, so that the
+    /// search may end.
+    fn is_good(&mut self, look: Look) -> bool {
+        if look != Look::Stroke || self.now >= self.sketch.good() {
+            return false;
+        }
+        let stroke = self.judge.fine(&self.at);
         let swings = self.sketch.bones.swings();
         stroke.is_some_and(|f| self.sketch.limits.shortfall(&f, swings).is_none())
     }
@@ -279,7 +287,7 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
             .cost(phase.look, f64::INFINITY)
             .unwrap_or(f64::INFINITY);
         self.best = (self.now, self.at.clone());
-        if phase.look == Look::Stroke && self.now < self.sketch.good() && self.does() {
+        if self.is_good(phase.look) {
             return;
         }
         let [from, to] = phase.warmth;
@@ -291,7 +299,11 @@ impl<'s, 'j, 'a> Annealing<'s, 'j, 'a> {
             }
             #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
             let done = step as f64 / phase.moves as f64;
+            let before = self.best.0;
             self.step(phase.look, from + (to - from) * done);
+            if self.best.0 < before && self.is_good(phase.look) {
+                return;
+            }
         }
         // Of those that cost more as drawn than good places do with their stroke one in twenty becomes good.
         let drawn = matches!(phase.look, Look::Places | Look::Motion);

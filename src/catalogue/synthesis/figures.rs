@@ -117,7 +117,7 @@ fn of_stroke(judge: &mut Judge<'_>, at: &Places) -> Option<LayoutFigures> {
         force: [least, mean, greatest],
         jaws: jaws.map(motion).collect(),
         ends: stroke.ends,
-        transmission: stroke.transmission.min(stroke.forces.transmission),
+        transmission: stroke.transmission,
         forces: stroke.forces,
         size: stroke.size,
         margin,

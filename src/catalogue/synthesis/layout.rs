@@ -98,18 +98,13 @@ pub enum NoLayout {
     NotRegular,
     /// No places were found that keep the limits; those of the best are told.
     #[error(
-        "no places found within the limits: the best have links of 1 : {ratio:.1}, a transmission angle of \
-         {transmission:.0}°, {crossings} crossings, and {straightness:.0} % of the jaws' motion closes them"
+        "no places found within the limits: the best have links of 1 : {ratio:.1} and {crossings} crossings"
     )]
     Limits {
         /// The longest link over the shortest.
         ratio: f64,
-        /// The worst transmission angle.
-        transmission: f64,
         /// Crossings.
         crossings: usize,
-        /// Share of the jaws' motion that closes them, in per cent.
-        straightness: f64,
     },
 }
 
@@ -118,9 +113,7 @@ impl NoLayout {
     fn limits(looks: &Looks) -> NoLayout {
         NoLayout::Limits {
             ratio: looks.ratio,
-            transmission: looks.transmission,
             crossings: looks.crossings,
-            straightness: 100.0 * looks.straightness,
         }
     }
 }

@@ -19,29 +19,18 @@ pub struct Looks {
     pub crossings: usize,
     /// The longest distance of two pins of a link over the shortest, the frame left out.
     pub ratio: f64,
-    /// The least angle between a rod and the motion across it at its ends: 90° is best, 0 is a dead point. In degrees; 90
-    /// where there are no rods.
-    pub transmission: f64,
     /// How fast the opening shrinks for a unit of the drive: millimetres a millimetre or a radian.
     pub closing: f64,
-    /// Share of the tips' motion that closes them.
-    pub straightness: f64,
     /// How the tips move as they close, for a unit of the drive.
     pub tips: Vec<Point>,
     /// What the places cost, 0 at best.
     pub penalty: f64,
 }
 
-/// The tips' motion must close them by this share at least.
-const LEAST_CLOSING: f64 = 0.35;
-
 impl Looks {
-    /// Whether the drawn pose keeps the limits; with more crossings where the links pass each other in planes of their own.
+    /// Whether the drawing keeps the limits; with more crossings where the links pass each other in planes of their own.
     pub(super) fn keep(&self, limits: &Limits, passes: bool) -> bool {
-        self.ratio <= limits.ratio
-            && self.transmission >= limits.transmission
-            && self.straightness >= LEAST_CLOSING
-            && (self.crossings <= limits.crossings || passes)
+        self.ratio <= limits.ratio && (self.crossings <= limits.crossings || passes)
     }
 }
 
@@ -51,9 +40,7 @@ const ALIGNED: f64 = 2.5;
 /// What velocities say of a layout.
 pub(super) struct LayoutMotion {
     closing: f64,
-    straightness: f64,
     tips: Vec<Point>,
-    transmission: f64,
     pub(super) penalty: f64,
 }
 
@@ -88,9 +75,7 @@ impl Bones {
             crossings: seen.crossings(self, at).0,
             ratio: self.lengths(at).0,
             penalty: self.penalty(at, f64::INFINITY, &mut seen, || Some(motion.penalty))?,
-            transmission: motion.transmission,
             closing: motion.closing,
-            straightness: motion.straightness,
             tips: motion.tips,
         })
     }
@@ -232,19 +217,18 @@ impl Bones {
         let closes = closing.clone().all(|c| c * sum > 0.0);
         #[allow(clippy::cast_precision_loss, reason = "two or three")]
         let pairs = tips.len() as f64 / 2.0;
+        let straightness = if closes {
+            sum.abs() / all.max(1e-12)
+        } else {
+            0.0
+        };
         let mut out = LayoutMotion {
             closing: sum.abs() / pairs,
-            straightness: if closes {
-                sum.abs() / all.max(1e-12)
-            } else {
-                0.0
-            },
-            transmission: 90.0,
             tips: tips.iter().map(|v| v.map(|x| sum.signum() * x)).collect(),
             penalty: 0.0,
         };
         let even = (fastest / slowest.max(1e-9 * fastest)).max(1.0).ln();
-        out.penalty += 8.0 * beyond(0.8 - out.straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
+        out.penalty += 8.0 * beyond(0.8 - straightness, 0.8) + 0.5 * beyond(even - 0.5, 1.0);
         // The drive: a millimetre for half to four millimetres of closing, a radian for 15 to 120; less where the force asks for it.
         let unit = if self.turns { 30.0 } else { 1.0 };
         let wanted = match least_force {
@@ -258,8 +242,7 @@ impl Bones {
         out.penalty += beyond(turning * 40.0 / out.closing.max(1e-9) - 2.0, 1.5).min(20.0);
         let rods = self.rods.iter();
         let sines = rods.map(|(l, ends)| transmission(&velocities[*l], ends.map(|i| at[i])));
-        out.transmission = angle(sines.fold(1.0, f64::min));
-        out.penalty += beyond(40.0 - out.transmission, 20.0);
+        out.penalty += beyond(40.0 - angle(sines.fold(1.0, f64::min)), 20.0);
         out
     }
 }

@@ -19,7 +19,7 @@ use std::ops::RangeInclusive;
 /// A layout that costs less than this is taken without looking for a better one.
 const GOOD: f64 = 1.0;
 /// The same bound for structures that have only hinges.
-const GOOD_HINGES: f64 = 3.0;
+const GOOD_HINGES: f64 = 4.0;
 /// Pitch radii of two gears, in a ratio.
 const RATIOS: [[i32; 2]; 9] = [
     [1, 1],

@@ -52,11 +52,15 @@ impl Limits {
             let lacks = (1.1 * task.least_force / f.force.max(1e-12)).ln();
             cost += 3.0 * beyond(lacks, 0.2).min(10.0);
         }
-        cost += beyond(30.0 - f.transmission, 15.0);
         cost += 2.0 * beyond(0.6 - f.straightness, 0.5);
-        cost += beyond(20.0 - f.forces.transmission, 10.0);
-        cost += 2.0 * beyond((f.forces.peak / 6.0).max(1e-12).ln(), 0.7).min(10.0);
-        cost += beyond(0.8 - f.forces.efficiency, 0.2);
+        cost += 4.0 * beyond(task.transmission + 4.0 - f.transmission, 8.0);
+        let most = if task.pin_force > 0.0 {
+            task.pin_force
+        } else {
+            10.0
+        };
+        cost += 2.0 * beyond((f.forces.peak / (0.6 * most)).max(1e-12).ln(), 0.5).min(10.0);
+        cost += beyond(task.efficiency.max(0.7) + 0.1 - f.forces.efficiency, 0.2);
         let turn = f.turn;
         cost += match task.motion {
             AskedMotion::Parallel => 2.0 * beyond(turn - 0.5 * PARALLEL, 0.5).min(10.0),
@@ -93,9 +97,12 @@ impl Limits {
             }
         };
         limit(over(f.force_ratio(), task.force_ratio), 0.1);
-        limit(self.transmission - f.transmission, 2.0);
-        limit(self.transmission - f.forces.transmission, 2.0);
+        limit(task.transmission - f.transmission, 2.0);
+        limit(task.efficiency - f.forces.efficiency, 0.05);
         limit(0.05 - f.straightness, 0.05);
+        if task.pin_force > 0.0 {
+            limit(over(f.forces.peak, task.pin_force), 0.1);
+        }
         if task.motion == AskedMotion::Parallel {
             limit(f.turn - PARALLEL, 0.2);
         }

@@ -97,6 +97,12 @@ pub struct Task {
     pub least_force: f64,
     /// The greatest force of a jaw over the least, over the stroke, at most.
     pub force_ratio: f64,
+    /// The transmission angle over the stroke at least, of rods and by joint forces at driver and jaws, in degrees.
+    pub transmission: f64,
+    /// The greatest joint force over the stroke at most, in N for 1 N of each jaw; 0 where any will do.
+    pub pin_force: f64,
+    /// The efficiency over the stroke at least; 0 where any will do.
+    pub efficiency: f64,
     /// Width and height of the box round pins, tips and pitch circles over the stroke at most, in mm; 0 where it may be of any size.
     #[serde(deserialize_with = "exactly")]
     pub room: [f64; 2],
@@ -140,7 +146,8 @@ impl Default for Friction {
 }
 
 impl Default for Task {
-    /// Parts of up to 50 mm, from outside, with a force that is at most three times the least.
+    /// Parts of up to 50 mm, from outside, with a force that is at most three times the least, a transmission angle of 25° at least,
+    /// joint forces of 10 N for 1 N of each jaw at most, and an efficiency of a half at least.
     fn default() -> Task {
         Task {
             narrowest: 0.0,
@@ -149,6 +156,9 @@ impl Default for Task {
             motion: AskedMotion::Any,
             least_force: 0.0,
             force_ratio: 3.0,
+            transmission: 25.0,
+            pin_force: 10.0,
+            efficiency: 0.5,
             room: [0.0; 2],
             pin_distance: 0.0,
             reach: 0.0,
@@ -200,8 +210,6 @@ impl Task {
 pub struct Limits {
     /// The longest link over the shortest, the frame left out.
     pub ratio: f64,
-    /// The worst transmission angle of a rod, in degrees.
-    pub transmission: f64,
     /// Crossings of links, and pins that lie on links that they are no part of, where no planes are known in which links pass each
     /// other.
     pub crossings: usize,
@@ -213,7 +221,6 @@ impl Default for Limits {
     fn default() -> Self {
         Limits {
             ratio: 8.0,
-            transmission: 15.0,
             crossings: 6,
             task: Task::default(),
         }

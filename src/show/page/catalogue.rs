@@ -30,7 +30,7 @@ const SCRIPT: [&str; 8] = [
 
 /// What a card is made of, but for its drawing and its ideas.
 const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, \
-     coalesce(k.transmission, l.transmission) AS transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
+     k.transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
      b.planes, b.links AS in_planes, b.structure IS NOT NULL AS stacked, opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
      ends_opening, tip_a_dx, tip_a_dy, tip_b_dx, tip_b_dy, tip_c_dx, tip_c_dy, mobility, redundant, finite, CAST(determinate AS TEXT) AS determinate, \
      CAST(determinate_w1 AS TEXT) AS determinate_w1, certainty, best_cost, price, actuator, id IN (SELECT id FROM front) AS front, \

@@ -22,58 +22,6 @@ fn speeds(s: &Structure, l: &Drawn, points: &[(usize, [f64; 2])]) -> Vec<[f64; 2
         .collect()
 }
 
-/// A rod pushes best along itself: its angle is that between the motion of its faster end and the line across the rod.
-#[test]
-fn transmission_angles_are_those_of_the_rods_ends() {
-    let forms = [Input::Slide, Input::Turn].map(|i| form(i, Symmetry::Generic, false));
-    let (mut n, mut told) = (0, 0);
-    each(6, &forms, |_, s| {
-        n += 1;
-        if n % 9 != 0 {
-            return;
-        }
-        let l = layout(&s, &Limits::default(), 1).unwrap();
-        let mut least = 90.0_f64;
-        for link in 0..s.structure.chain.links() {
-            let at: Vec<[f64; 2]> = l
-                .pins
-                .iter()
-                .zip(&l.at)
-                .filter(|((u, v), _)| [*u, *v].contains(&link))
-                .map(|(_, p)| p.real())
-                .collect();
-            let r = &s.structure.roles;
-            let other = link == r.frame || link == r.drive()[1] || r.jaws.contains(&link);
-            let (false, [a, b]) = (other, &at[..]) else {
-                continue;
-            };
-            let v = speeds(&s, &l, &[(link, *a), (link, *b)]);
-            let size = |v: [f64; 2]| v[0].hypot(v[1]);
-            let (fast, slow) = if size(v[0]) > size(v[1]) {
-                (v[0], v[1])
-            } else {
-                (v[1], v[0])
-            };
-            if size(slow) < 1e-4 * size(fast) {
-                continue;
-            }
-            let rod = [b[0] - a[0], b[1] - a[1]];
-            let between = (rod[0] * fast[1] - rod[1] * fast[0])
-                .abs()
-                .atan2((rod[0] * fast[0] + rod[1] * fast[1]).abs());
-            least = least.min(90.0 - between.to_degrees());
-            told += 1;
-        }
-        assert!(
-            (least - l.looks.transmission).abs() < 1e-2,
-            "{}: {least} {}",
-            s.name(),
-            l.looks.transmission
-        );
-    });
-    assert!(told > 5, "{told}");
-}
-
 /// Work in is work out, pose by pose: a jaw's force over the drive's is the drive's way over all the jaws' together.
 #[test]
 fn forces_are_the_drives_way_over_the_jaws() {

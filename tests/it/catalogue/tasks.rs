@@ -103,6 +103,8 @@ fn the_strongest_layouts_are_stronger() {
     };
     wrong(&["--aim", "strong"], "none of balanced, force");
     wrong(&["--pulled-out", "0.5"], "pulled_out");
+    wrong(&["--efficiency", "1.5"], "efficiency");
+    wrong(&["--transmission", "91"], "transmission");
     wrong(&["--pin-distance=-1"], "pin_distance");
 }
 

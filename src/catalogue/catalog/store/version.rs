@@ -101,7 +101,7 @@ pub enum StoreError {
 /// What marks a file as a catalogue: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables; it is raised with every change of them, and of what a specification says.
-pub(super) const VERSION: i64 = 10;
+pub(super) const VERSION: i64 = 11;
 
 /// The tables, each column with what it holds; the file carries these words, too (`.schema` shows them).
 const TABLES: &str = include_str!("../tables.sql");

@@ -57,7 +57,7 @@ pub struct StrokeFigures {
     pub force: f64,
     /// The drive at both ends, from where it is drawn: mm or rad.
     pub drive: [f64; 2],
-    /// The least angle between a rod and the motion across it at its ends, in degrees; 90 where there are no rods.
+    /// The least transmission angle, of rods and by joint forces at driver and jaws, in degrees.
     pub transmission: f64,
     /// The least share of the tips' motion that closes them; 0 where one opens as the others close.
     pub straightness: f64,
@@ -226,7 +226,7 @@ impl<'a> Judge<'a> {
             drive: way.drive,
             rates: g.rates.0,
             force: self.motion.sketch.bones.force(g.rates.0[0]),
-            transmission: angle(g.sine),
+            transmission: angle(g.sine).min(g.forces.transmission),
             straightness: g.straightness,
             turn: self.turns().fold(0.0, f64::max).to_degrees(),
             size: g.sides.map(Between::span),

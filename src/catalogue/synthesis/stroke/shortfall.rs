@@ -87,10 +87,20 @@ impl Limits {
                 "the cylinder is {:.2} times as long pulled out as pushed in where {} are allowed",
                 f.pulled_out, task.pulled_out
             )
-        } else if f.transmission < self.transmission {
+        } else if f.transmission < task.transmission {
             format!(
-                "the transmission angle falls to {:.0}° over the stroke where {}° are asked",
-                f.transmission, self.transmission
+                "the transmission angle falls to {:.1}° over the stroke where {}° are asked",
+                f.transmission, task.transmission
+            )
+        } else if task.pin_force > 0.0 && f.forces.peak > task.pin_force {
+            format!(
+                "a joint bears {:.1} N for 1 N of each jaw where {} N are allowed",
+                f.forces.peak, task.pin_force
+            )
+        } else if f.forces.efficiency < task.efficiency {
+            format!(
+                "the efficiency falls to {:.2} over the stroke where {} is asked",
+                f.forces.efficiency, task.efficiency
             )
         } else {
             return None;

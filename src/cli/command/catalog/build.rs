@@ -67,9 +67,6 @@ pub(in crate::cli) struct Build {
     /// Maximum ratio of the longest link to the shortest [default: 8].
     #[arg(long, value_name = "X")]
     ratio: Option<f64>,
-    /// Minimum transmission angle of a rod, in degrees [default: 15].
-    #[arg(long, value_name = "DEGREES")]
-    transmission: Option<f64>,
     /// Maximum number of crossings of links for which no planes are known in which they pass each other [default: 6].
     #[arg(long, value_name = "N")]
     crossings: Option<usize>,
@@ -130,7 +127,6 @@ impl Build {
         spec.jaws = self.jaws.unwrap_or(spec.jaws);
         spec.ideas = self.ideas.unwrap_or(spec.ideas);
         spec.ratio = self.ratio.unwrap_or(spec.ratio);
-        spec.transmission = self.transmission.unwrap_or(spec.transmission);
         spec.crossings = self.crossings.unwrap_or(spec.crossings);
         self.task.put(&mut spec.task);
         Ok(())

@@ -21,6 +21,15 @@ pub(super) struct TaskArgs {
     /// Maximum ratio of the greatest jaw force to the least, over the stroke [default: 3].
     #[arg(long, value_name = "X")]
     force_ratio: Option<f64>,
+    /// Minimum transmission angle over the stroke, in degrees [default: 25].
+    #[arg(long, value_name = "DEGREES")]
+    transmission: Option<f64>,
+    /// Maximum joint force over the stroke, in N per 1 N at each jaw [default: 10; 0: any].
+    #[arg(long, value_name = "N")]
+    pin_force: Option<f64>,
+    /// Minimum efficiency over the stroke, with friction in pins and guide [default: 0.5; 0: any].
+    #[arg(long, value_name = "X")]
+    efficiency: Option<f64>,
     /// Maximum width and height over the stroke of the box around pins, tips and pitch circles, in mm [default: any].
     #[arg(long, value_name = "WxH", value_parser = room)]
     room: Option<[f64; 2]>,
@@ -52,6 +61,9 @@ impl TaskArgs {
         task.motion = self.motion.unwrap_or(task.motion);
         task.least_force = self.least_force.unwrap_or(task.least_force);
         task.force_ratio = self.force_ratio.unwrap_or(task.force_ratio);
+        task.transmission = self.transmission.unwrap_or(task.transmission);
+        task.pin_force = self.pin_force.unwrap_or(task.pin_force);
+        task.efficiency = self.efficiency.unwrap_or(task.efficiency);
         task.room = self.room.unwrap_or(task.room);
         task.pin_distance = self.pin_distance.unwrap_or(task.pin_distance);
         task.reach = self.reach.unwrap_or(task.reach);

@@ -267,10 +267,9 @@ fn motion_text(d: &StructureData, layout: &Map<String, Value>) -> String {
 fn shape_text(d: &StructureData, layout: &Map<String, Value>) -> String {
     let l = of(layout);
     format!(
-        "Drawn: links 1 : {}, worst transmission angle {}°, {} crossings\n\
+        "Drawn: links 1 : {}, {} crossings\n\
          Determinate variants ({}): {}, of these {} with W = 1{}\n\n",
         l("link_ratio"),
-        l("transmission"),
         l("crossings"),
         l("certainty"),
         l("determinate"),

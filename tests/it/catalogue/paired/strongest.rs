@@ -16,11 +16,13 @@ use serde_json::Value;
 fn published_limits(transmission: f64) -> Limits {
     Limits {
         ratio: 30.0,
-        transmission,
         task: Task {
             narrowest: 29.999,
             widest: 50.0,
             force_ratio: 1000.0,
+            transmission,
+            pin_force: 0.0,
+            efficiency: 0.0,
             room: [100.02, 80.02],
             pin_distance: 5.99,
             reach: 20.0,
