@@ -1,7 +1,7 @@
-//! The structure of a mechanism, in its pose and over a stroke.
+//! Analyses of a mechanism in its pose and over a stroke.
 
+use crate::answer::{Answer, failed, json, state};
 use crate::mechanism::Mechanism;
-use crate::told::{Told, failed, json, state};
 use ozols::file::read::workload::motion;
 use ozols::model::mechanism::StateId;
 use ozols::rank::method::{RankOfJ, registry};
@@ -14,7 +14,7 @@ use ozols::view::analysis::suggestions::advise;
 use ozols::view::stroke::StrokeData;
 use pyo3::prelude::*;
 
-/// As `ozols analyze`.
+/// Returns what `ozols analyze` prints.
 #[pyfunction]
 pub(crate) fn analyze(
     py: Python<'_>,
@@ -22,7 +22,7 @@ pub(crate) fn analyze(
     named: &str,
     method: &str,
     tolerance: Option<f64>,
-) -> PyResult<Told> {
+) -> PyResult<Answer> {
     let m = &mechanism.get().0;
     py.detach(|| {
         let states: Vec<StateId> = match named {
@@ -38,8 +38,8 @@ pub(crate) fn analyze(
         }
         if tolerance.is_some() && matches!(by.about().rank, RankOfJ::Chosen) {
             return Err(failed(format!(
-                "--tolerance has no effect with --method {method}, which goes by the digits and the [tolerance] table of the \
-                 file; leave it out, or use svd"
+                "--tolerance has no effect with --method {method}, which uses the digits and the [tolerance] table of the \
+                 file; omit it, or use svd"
             )));
         }
         let Some(rank) = Method::of(by, tolerance) else {
@@ -54,12 +54,12 @@ pub(crate) fn analyze(
         };
         let found = analyse(m, &states, rank).map_err(failed)?;
         let advice = advise(m, &states, &found).map_err(failed)?;
-        let told = Analysis::new(m, &found, &advice);
-        Ok((json(&told.json())?, told.text(None, false), None, None))
+        let view = Analysis::new(m, &found, &advice);
+        Ok((json(&view.json())?, view.text(None, false), None, None))
     })
 }
 
-/// The stroke of `ozols analyze --stroke`.
+/// Returns the stroke of `ozols analyze --stroke`.
 #[pyfunction]
 pub(crate) fn stroke(
     py: Python<'_>,
@@ -68,7 +68,7 @@ pub(crate) fn stroke(
     drive: Option<&str>,
     named: &str,
     tolerance: Option<f64>,
-) -> PyResult<Told> {
+) -> PyResult<Answer> {
     let m = &mechanism.get().0;
     py.detach(|| {
         let state = state(m, named)?;
@@ -76,12 +76,12 @@ pub(crate) fn stroke(
         let read = motion::stroke(range).map_err(failed)?;
         let asked =
             AskedStroke::new(m, state, range, read, drive, &verdict, tolerance).map_err(failed)?;
-        let told = StrokeData::of(&asked);
+        let view = StrokeData::of(&asked);
         Ok((
-            json(&told.json())?,
-            told.text(None),
+            json(&view.json())?,
+            view.text(None),
             None,
-            Some(told.chart().svg()),
+            Some(view.chart().svg()),
         ))
     })
 }

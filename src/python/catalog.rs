@@ -1,6 +1,6 @@
-//! Catalogues: a part built in this process, and parts put together.
+//! Catalogues: building a part in this process, and merging parts.
 
-use crate::told::failed;
+use crate::answer::failed;
 use crate::waiting::with_progress;
 use ozols::catalog::build::{build, work};
 use ozols::catalog::spec::Spec;
@@ -17,7 +17,7 @@ fn spec(json: &str) -> PyResult<Spec> {
     Ok(spec)
 }
 
-/// What a specification, given as JSON, is in the words that the database keeps, and the ids of its structures.
+/// Returns the canonical text of a specification in JSON, and the ids of its structures.
 #[pyfunction]
 pub(crate) fn catalog_plan(py: Python<'_>, json: &str) -> PyResult<(String, Vec<String>)> {
     let spec = spec(json)?;
@@ -27,8 +27,8 @@ pub(crate) fn catalog_plan(py: Python<'_>, json: &str) -> PyResult<(String, Vec<
     Ok((spec.canonical(), ids))
 }
 
-/// As `ozols catalog build`: what a database lacks of a part, counted from 1, is added to it; how many that were.
-/// `progress` hears structures done and in all.
+/// Adds the structures that a database lacks of a part (counted from 1), and returns how many were added. `progress` is called with
+/// the structures done and their total number.
 #[pyfunction]
 pub(crate) fn catalog_build(
     py: Python<'_>,

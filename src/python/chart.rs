@@ -1,9 +1,9 @@
-//! Charts in the look of the program's own.
+//! Charts in the style of the program.
 
 use ozols::chart::{Axis, Chart, Scale, Series, Style};
 use pyo3::prelude::*;
 
-/// Lines over two axes, each a label and whether it is logarithmic, as SVG; a line has a name and points.
+/// Returns a chart of lines over two axes as SVG. An axis has a label and whether it is logarithmic; a line has a name and points.
 #[pyfunction]
 pub(crate) fn chart(
     title: String,

@@ -1,16 +1,16 @@
-//! ozols for Python: the library's calls on the one side, JSON of its views on the other. The package `ozols` beside this
-//! file makes Python's own objects of that.
+//! The extension module of the Python package: it calls the library and returns its views as JSON. The package `ozols` next to
+//! this file turns them into objects.
 
 mod analysis;
+mod answer;
 mod catalog;
 mod chart;
 mod mechanism;
 mod search;
 mod statics;
-mod told;
 mod waiting;
 
-/// What Python imports as `ozols._native`.
+/// The module `ozols._native`.
 #[pyo3::pymodule]
 mod _native {
     use pyo3::prelude::*;
@@ -18,6 +18,8 @@ mod _native {
 
     #[pymodule_export]
     use crate::analysis::{analyze, stroke};
+    #[pymodule_export]
+    use crate::answer::Error;
     #[pymodule_export]
     use crate::catalog::{catalog_build, catalog_merge, catalog_plan};
     #[pymodule_export]
@@ -28,13 +30,11 @@ mod _native {
     use crate::search::{Outcome, Variant, Variants, search};
     #[pymodule_export]
     use crate::statics::statics;
-    #[pymodule_export]
-    use crate::told::Error;
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-    /// The command `ozols` with these words, its name first; its exit code.
+    /// Runs the command `ozols` with these words, its name first, and returns the exit code.
     #[pyfunction]
     fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
         py.detach(|| ozols::cli::run_with(words))

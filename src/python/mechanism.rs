@@ -1,6 +1,6 @@
-//! Mechanisms: read, written and drawn.
+//! Mechanisms: reading, writing and drawing.
 
-use crate::told::{failed, refused, state};
+use crate::answer::{failed, refused, state};
 use ozols::draw::{self, Marks, Subject};
 use ozols::redundancy::analysis::{Method, analyse};
 use ozols::robots::{self, Options};
@@ -19,7 +19,7 @@ impl Mechanism {
         ozols::built_in(name).map(Self).map_err(refused)
     }
 
-    /// A mechanism file, or a robot description with what is doubtful about it.
+    /// Reads a mechanism file, or a robot description with its doubts.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<(Self, String)> {
         if robots::is_description(&path.display().to_string()) {
@@ -89,7 +89,7 @@ fn robot(py: Python<'_>, path: PathBuf, options: &Options) -> PyResult<(Mechanis
     Ok((Mechanism(imported.mechanism), imported.report.doubts()))
 }
 
-/// A drawing of a mechanism in a state, with what a redesign changed marked.
+/// Returns a drawing of a mechanism in a state, with the changes of a redesign marked.
 pub(crate) fn drawn(
     m: &ozols::Mechanism,
     kind: &str,
@@ -101,7 +101,7 @@ pub(crate) fn drawn(
         "kinematic" => draw::kinematic,
         _ => {
             return Err(failed(format!(
-                "kind {kind:?} is neither scheme nor kinematic"
+                "kind must be scheme or kinematic, not {kind:?}"
             )));
         }
     };
@@ -116,7 +116,7 @@ pub(crate) fn drawn(
     Ok(draw(&subject).svg)
 }
 
-/// Names of the built-in mechanisms, ascending.
+/// Returns the names of the built-in mechanisms, ascending.
 #[pyfunction]
 pub(crate) fn builtin_names() -> Vec<&'static str> {
     ozols::builtin::names()

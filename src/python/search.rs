@@ -1,7 +1,7 @@
-//! Searches, their outcomes, and variants one by one.
+//! Searches, their outcomes, and their variants.
 
+use crate::answer::{failed, json};
 use crate::mechanism::{Mechanism, drawn};
-use crate::told::{failed, json};
 use crate::waiting::{TURN, patiently};
 use ozols::draw::Marks;
 use ozols::score::outcome::variant;
@@ -19,25 +19,23 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Variants made ready before Python takes them.
+/// Number of variants prepared ahead.
 const AHEAD: usize = 64;
 
-/// A [`Request`] as JSON of Python's.
+/// Reads a [`Request`] from the JSON of the keywords.
 fn request(asked: &str) -> PyResult<Request> {
     let from = &mut serde_json::Deserializer::from_str(asked);
     serde_path_to_error::deserialize(from).map_err(|e| {
-        // What the place of a character in that text would be is nothing that was typed.
+        // The position in the JSON is of no use: nobody typed it.
         let what = e.inner().to_string();
         let what = what
             .rsplit_once(" at line")
             .map_or(&*what, |(what, _)| what);
-        // In the words of the command line.
-        let option = e.path().to_string().replace('_', "-");
-        failed(format!("--{option}: {what}"))
+        failed(format!("{}: {what}", e.path()))
     })
 }
 
-/// As `ozols search`. `progress` hears layers done, layers in all, and nodes so far.
+/// Searches as `ozols search`. `progress` is called with the layers done, their total number, and the nodes so far.
 #[pyfunction]
 pub(crate) fn search(
     py: Python<'_>,
@@ -71,12 +69,12 @@ pub(crate) struct Outcome(Arc<ozols::Outcome>);
 
 #[pymethods]
 impl Outcome {
-    /// All but the variants, as JSON.
+    /// Returns everything except the variants as JSON.
     fn counts(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| json(&data::search(&self.0)))
     }
 
-    /// The same with the variants asked for and what is told of them: what the command prints, but for the seconds.
+    /// Returns the JSON that the command prints, without the seconds.
     fn data(&self, py: Python<'_>) -> PyResult<String> {
         let o = &*self.0;
         written(py, |out| {
@@ -101,7 +99,7 @@ impl Outcome {
         })
     }
 
-    /// The variants asked for; all of them where `all`; or a sample of so many.
+    /// Returns the requested variants, all variants, or a sample.
     fn variants(&self, all: bool, sample: Option<usize>, seed: u64) -> Variants {
         let outcome = self.0.clone();
         let list = match (all, sample) {
@@ -124,7 +122,7 @@ fn written(
     String::from_utf8(out).map_err(failed)
 }
 
-/// Variants one by one, some of them made ready ahead by a thread of its own.
+/// An iterator over variants. A thread prepares some of them ahead.
 #[derive(Debug)]
 #[pyclass(frozen, module = "ozols._native")]
 pub(crate) struct Variants {
@@ -140,9 +138,9 @@ impl Variants {
         std::thread::spawn(move || {
             let cancelled = || stopped.load(Ordering::Relaxed);
             let list = outcome.list_unless(list, seed, &cancelled);
-            // Until nobody is interested any more.
+            // Ends when the receiver is dropped.
             let _ = json::each(&outcome, list, |v, data| {
-                let told = Variant {
+                let variant = Variant {
                     outcome: outcome.clone(),
                     assignment: v.assignment().clone(),
                     name: v.name(),
@@ -150,7 +148,7 @@ impl Variants {
                     text: v.to_string(),
                     data: serde_json::to_string(data).ok(),
                 };
-                tell.send(told).map_err(drop)
+                tell.send(variant).map_err(drop)
             });
         });
         let heard = Mutex::new(heard);
@@ -185,7 +183,7 @@ impl Variants {
     }
 }
 
-/// A variant, with the outcome it is of.
+/// A variant and its outcome.
 #[derive(Debug)]
 #[pyclass(frozen, module = "ozols._native")]
 pub(crate) struct Variant {

@@ -1,7 +1,7 @@
-//! Joint reactions, as `ozols statics` finds them.
+//! Joint reactions.
 
+use crate::answer::{Answer, failed, json, state};
 use crate::mechanism::Mechanism;
-use crate::told::{Told, failed, json, state};
 use ozols::file::read::workload::motion;
 use ozols::grip::clamped::clamped;
 use ozols::grip::jaw_loads::{Gripping, JawError};
@@ -13,7 +13,7 @@ use ozols::view::grip::clamped::NotHeld;
 use ozols::view::statics::told::ToldStatics;
 use pyo3::prelude::*;
 
-/// As `ozols statics`.
+/// Returns what `ozols statics` prints.
 #[pyfunction]
 pub(crate) fn statics(
     py: Python<'_>,
@@ -22,7 +22,7 @@ pub(crate) fn statics(
     stroke: Option<&str>,
     spatial: bool,
     unilateral: bool,
-) -> PyResult<Told> {
+) -> PyResult<Answer> {
     let m = &mechanism.get().0;
     py.detach(|| {
         let state = state(m, named)?;
@@ -31,7 +31,7 @@ pub(crate) fn statics(
             Err(e) => Err(failed(e)),
             Ok(Some(g)) if stroke.is_none() => round_a_part(&g, spatial),
             Ok(Some(_)) => Err(failed(
-                "--stroke needs a motion, and the levers stand still round the part",
+                "--stroke needs a motion, but the levers are at rest on the part",
             )),
             Ok(None) => reactions_of(m, state, stroke, (spatial, unilateral)),
         }
@@ -43,7 +43,7 @@ fn reactions_of(
     state: StateId,
     range: Option<&str>,
     model: (bool, bool),
-) -> PyResult<Told> {
+) -> PyResult<Answer> {
     let stroke = match range {
         Some(text) => Some(motion::stroke(text).map_err(failed)?),
         None => m.loads.stroke,
@@ -60,26 +60,26 @@ fn reactions_of(
         Err(e) => Err(failed(e)),
         Ok(found) => {
             let methods = &GroupMethod::ALL;
-            told(&ToldStatics::new(m, state, stroke, &found, methods))
+            answer(&ToldStatics::new(m, state, stroke, &found, methods))
         }
     }
 }
 
-/// With the part that is hardest to hold.
-fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
+/// Returns the reactions with the part that is hardest to hold.
+fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Answer> {
     let Some(row) = g.study.hardest() else {
         return not_held(&NotHeld::new(g));
     };
     match clamped(g, row, spatial).map_err(failed)? {
         None => not_held(&NotHeld::new(g)),
-        Some(found) => told(&ToldStatics::round_a_part(g, row, &found)),
+        Some(found) => answer(&ToldStatics::round_a_part(g, row, &found)),
     }
 }
 
-fn told(told: &ToldStatics<'_>) -> PyResult<Told> {
-    Ok((json(told)?, told.text(None), Some(told.csv()), None))
+fn answer(view: &ToldStatics<'_>) -> PyResult<Answer> {
+    Ok((json(view)?, view.text(None), Some(view.csv()), None))
 }
 
-fn not_held(told: &NotHeld<'_>) -> PyResult<Told> {
-    Ok((json(told)?, told.text(), None, None))
+fn not_held(view: &NotHeld<'_>) -> PyResult<Answer> {
+    Ok((json(view)?, view.text(), None, None))
 }

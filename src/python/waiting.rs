@@ -1,16 +1,16 @@
-//! Long work without the GIL, which hears signals all the same.
+//! Long work without the GIL that can be interrupted by signals.
 
-use crate::told::failed;
+use crate::answer::failed;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// How long nobody looks whether a signal came.
+/// Interval between checks for signals.
 pub(crate) const TURN: Duration = Duration::from_millis(50);
 
-/// Does `work` on a thread of its own. What it tells is given to `hear`, here and with the GIL. Where `hear` raises, or a
-/// signal's handler does (Ctrl-C), the work is told to stop, and that is raised once it has.
+/// Does `work` on a new thread. Its events go to `hear`, on this thread and with the GIL. If `hear` or a signal handler raises
+/// (Ctrl-C), the work is stopped, and the exception is raised when it has ended.
 pub(crate) fn patiently<T: Send, E: Send>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool, &mut (dyn FnMut(E) + Send)) -> T + Send,
@@ -20,7 +20,7 @@ pub(crate) fn patiently<T: Send, E: Send>(
     std::thread::scope(|s| {
         let (tell, mut heard) = channel();
         let stop = &stop;
-        // Nobody is left to tell once waiting has ended.
+        // The receiver is gone when waiting has ended.
         let worker = s.spawn(move || work(stop, &mut |event| drop(tell.send(event))));
         let mut raised = None;
         loop {
@@ -46,7 +46,7 @@ pub(crate) fn patiently<T: Send, E: Send>(
     })
 }
 
-/// As [`patiently`], on so many threads (0: all), for work that tells what is done of all; `progress` hears it.
+/// Does `work` as [`patiently`] on a number of threads (0: all). `progress` is called with the work done and its total.
 pub(crate) fn with_progress<T: Send>(
     py: Python<'_>,
     threads: usize,

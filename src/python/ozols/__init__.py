@@ -1,6 +1,6 @@
 """Redundant constraints of mechanisms, contour by contour, and every redesign that removes them.
 
-A mechanism goes in; an analysis, a search, reactions or a drawing come out:
+A :class:`Mechanism` is read or built, then analysed, searched, loaded and drawn:
 
 >>> import ozols
 >>> gripper = ozols.Mechanism.builtin("gripper-10")
@@ -13,26 +13,29 @@ A mechanism goes in; an analysis, a search, reactions or a drawing come out:
 >>> print(outcome[0])
 1. cost 11.5, W = 1, σ = 0: 1-2, 3-0, 1-6, 6-7, 9-1 -> spherical; 5-1 -> cylindrical
 
-What is found has the keys of the JSON that the command ``ozols`` prints, as items and as attributes, and ``to_pandas()``.
-What goes wrong is an :class:`ozols.Error` with the command's words. Long work leaves other threads running; Ctrl-C ends it.
+Results have the keys of the JSON that the command ``ozols`` prints, as items and as attributes, and ``to_pandas()``.
+Errors are :class:`ozols.Error`, and name the keywords of the call. Long work lets other threads run; Ctrl-C ends it.
 """
 
 from . import catalog
+from ._commands import fix, lint
 from ._mechanism import Builder, Drawing, Mechanism
 from ._native import VERSION as __version__
 from ._native import Error
 from ._outcome import Outcome, Variant
-from ._view import Told, View
+from ._view import Answer, View
 
 __all__ = [
+    "Answer",
     "Builder",
     "Drawing",
     "Error",
     "Mechanism",
     "Outcome",
-    "Told",
     "Variant",
     "View",
     "__version__",
     "catalog",
+    "fix",
+    "lint",
 ]

@@ -7,7 +7,7 @@ from . import _native
 
 
 def main() -> None:
-    # The command listens for itself; what Python would do besides is not wanted.
+    # The command has its own handler of signals, and Python's would hide it.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     sys.exit(_native.command(["ozols", *sys.argv[1:]]))
 

@@ -1,4 +1,4 @@
-"""Mechanisms: read, built, analysed, searched and drawn."""
+"""Mechanisms: reading, building, analysis, search, workload and drawing."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from . import _native
+from . import _commands, _native
 from ._outcome import Drawing, Outcome
-from ._view import Chart, Told
+from ._view import Chart, Answer
 
 __all__ = ["Builder", "Drawing", "Mechanism"]
 
 
 def _entry(value: Any) -> Any:
-    """What JSON has no word for: arrays and numbers of numpy; fractions and symbols become expressions."""
+    """Returns a value that JSON has no type for: numpy values as lists or numbers, fractions and symbols as expressions."""
     return value.tolist() if hasattr(value, "tolist") else str(value)
 
 
 def _names(words: Iterable[str]) -> list[str]:
-    """A list of names, or one string of them with commas, as on the command line."""
+    """Returns a list of names, given as a list or as one string with commas."""
     return words.split(",") if isinstance(words, str) else list(words)
 
 
@@ -47,7 +47,7 @@ def _costs(path: str | os.PathLike[str]) -> dict[str, str]:
 
 
 def _asked(given: Mapping[str, Any]) -> str:
-    """The keywords of a search as the library takes them: a request in JSON, without what is left to it."""
+    """Returns the keywords of a search as a request in JSON, without those that are ``None``."""
     rank = given["rank"]
     terms = rank.items() if isinstance(rank, Mapping) else ((t, 1.0) for t in _names(rank))
     asked = {
@@ -64,10 +64,10 @@ def _asked(given: Mapping[str, Any]) -> str:
 
 
 class Mechanism:
-    """A mechanism: links, joints, and what a search may change.
+    """A mechanism: links, joints, and the joint types that a search may use.
 
-    Made by :meth:`builtin`, :meth:`from_file`, :meth:`from_dict` and their like, or with a :class:`Builder`; it does not
-    change afterwards, and may be pickled.
+    Create one with :meth:`builtin`, :meth:`from_file`, :meth:`from_dict` and similar methods, or with a :class:`Builder`. It is
+    immutable and can be pickled.
 
     >>> Mechanism.builtin("four-bar")
     <ozols.Mechanism four-bar: 4 links, 4 joints>
@@ -80,12 +80,12 @@ class Mechanism:
 
     @classmethod
     def builtin(cls, name: str) -> Mechanism:
-        """One of the built-in mechanisms; :meth:`builtins` has their names."""
+        """Returns a built-in mechanism; :meth:`builtins` lists their names."""
         return cls(_native.Mechanism.builtin(name))
 
     @staticmethod
     def builtins() -> list[str]:
-        """Names of the built-in mechanisms.
+        """Returns the names of the built-in mechanisms.
 
         >>> "bennett" in Mechanism.builtins()
         True
@@ -94,26 +94,28 @@ class Mechanism:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Mechanism:
-        """A mechanism file (TOML; JSON where the name ends so) or a robot description (.urdf, .xml, .sdf).
+        """Reads a mechanism file (TOML, or JSON if the name ends in ``.json``) or a robot description (.urdf, .xml, .sdf).
 
-        Warns of what a description leaves in doubt.
+        Warns about what a description leaves open.
         """
         return cls._doubtful(_native.Mechanism.from_file(path))
 
     @classmethod
     def from_toml(cls, text: str) -> Mechanism:
-        """The text of a mechanism file in TOML."""
+        """Reads the text of a mechanism file in TOML."""
         return cls(_native.Mechanism.from_toml(text))
 
     @classmethod
     def from_json(cls, text: str) -> Mechanism:
-        """The text of a mechanism file in JSON."""
+        """Reads the text of a mechanism file in JSON."""
         return cls(_native.Mechanism.from_json(text))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Mechanism:
-        """The keys of a mechanism file (``ozols schema``). Numbers are taken as they print; expressions are strings such as
-        ``"sqrt(3)/2"``, fractions, or symbols of sympy."""
+        """Reads the keys of a mechanism file (``ozols schema``).
+
+        A number means its printed decimals. Expressions are strings such as ``"sqrt(3)/2"``, fractions, or sympy symbols.
+        """
         return cls.from_json(json.dumps(data, indent=2, default=_entry, ensure_ascii=False))
 
     @classmethod
@@ -131,10 +133,9 @@ class Mechanism:
         frame: str | None = None,
         outputs: Iterable[str] = (),
     ) -> Mechanism:
-        """A robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly. The options are those
-        of ``ozols export``.
+        """Reads a robot description (URDF, MJCF or SDF, by its root element) or a CAD assembly.
 
-        ``pose`` gives joints values in radians and metres. Warns of what is left in doubt.
+        ``pose`` sets joint values in radians and metres. ``loops`` is a file of loop closures. Warns about what the file leaves open.
         """
         side = None if loops is None else (os.fspath(loops), Path(loops).read_bytes())
         values = [(k, [v] if isinstance(v, (int, float)) else list(v)) for k, v in (pose or {}).items()]
@@ -152,29 +153,29 @@ class Mechanism:
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name."""
         return self._native.name
 
     def to_dict(self) -> dict[str, Any]:
-        """The keys of its file, every joint with its own options; :meth:`from_dict` reads them."""
+        """Returns the keys of the mechanism file. :meth:`from_dict` reads them."""
         data: dict[str, Any] = json.loads(self.export("json"))
         return data
 
     def export(self, format: str) -> str:
-        """Itself as text: ``toml``, ``json``, ``urdf``, ``mjcf``, ``sdf``, ``dot`` or ``graphml``.
+        """Returns the mechanism as text: ``toml``, ``json``, ``urdf``, ``mjcf``, ``sdf``, ``dot`` or ``graphml``.
 
         >>> Mechanism.builtin("four-bar").export("sdf")[:14]
         '<?xml version='
         """
         return self._native.export(format)
 
-    def analyze(self, state: str = "all", *, method: str = "auto", tolerance: float | None = None) -> Told:
-        """Mobility and redundant constraints in each state, as ``ozols analyze``.
+    def analyze(self, state: str = "all", *, method: str = "auto", tolerance: float | None = None) -> Answer:
+        """Returns mobility and redundant constraints in each state, as ``ozols analyze``.
 
         >>> Mechanism.builtin("bennett").analyze().states[0].redundant
         3
         """
-        return Told(_native.analyze(self._native, state, method, tolerance), "states")
+        return Answer(_native.analyze(self._native, state, method, tolerance), "states")
 
     def stroke(
         self,
@@ -184,9 +185,9 @@ class Mechanism:
         state: str = "free",
         tolerance: float | None = None,
     ) -> Chart:
-        """The figures over a range of the drive: what ``ozols analyze --stroke`` has as ``stroke``.
+        """Returns the mobility and rank at poses over a range of the drive.
 
-        A range is ``"0:360deg:72"``, or from, to and steps, in radians or the file's unit of length.
+        A range is ``"0:360deg:72"``, or a tuple of start, end and steps, in radians or the length unit of the file.
 
         >>> Mechanism.builtin("four-bar").stroke("0:90deg:3").poses[-1].mobility
         1
@@ -200,23 +201,65 @@ class Mechanism:
         stroke: str | tuple[float, float, int] | None = None,
         spatial: bool = False,
         unilateral: bool = False,
-    ) -> Told:
-        """Joint reactions under the loads of the file, as ``ozols statics``; its table is one of joints.
+    ) -> Answer:
+        """Returns the joint reactions under the loads of the file, as ``ozols statics``. The table has one row per joint.
 
-        ``spatial``: all six components of each, where the plane would do. ``unilateral``: contacts with an object only push.
+        ``spatial`` gives all six components also for a planar mechanism. With ``unilateral``, contacts with an object only push.
         """
         over = None if stroke is None else _range(stroke)
-        return Told(_native.statics(self._native, state, over, spatial, unilateral))
+        return Answer(_native.statics(self._native, state, over, spatial, unilateral))
+
+    def grip(
+        self,
+        *,
+        accelerations: Iterable[Sequence[float]] = (),
+        any_acceleration: float | None = None,
+        closure: bool = False,
+        state: str | None = None,
+        tolerance: float | None = None,
+        samples: int | None = None,
+    ) -> Answer:
+        """Returns what a lever gripper can hold and the drive moment it needs, as ``ozols grip``.
+
+        Accelerations are in m/s², in the axes of the gripper; ``any_acceleration`` acts in any direction. ``closure`` reports
+        how firmly the contacts of a clamped state hold the part, and ``tolerance`` the share of ``samples`` that keep closure
+        if contacts are misplaced by up to this length.
+
+        >>> Mechanism.builtin("lever-gripper").grip()["holds"]
+        True
+        """
+        words = [f"--acceleration={','.join(map(str, a))}" for a in accelerations]
+        given = _commands.options(
+            any_acceleration=any_acceleration, closure=closure, state=state, tolerance=tolerance, samples=samples
+        )
+        return self._command("grip", [*words, *given])
+
+    def drive(self, *, tolerance: float | None = None, samples: int | None = None) -> Answer:
+        """Returns the design of the spring drive in ``[workload.drive]``, as ``ozols drive``.
+
+        ``tolerance`` also reports the share of ``samples`` that latch if stiffness, inertia, losses, cam and latches vary by up
+        to this fraction.
+
+        >>> "design" in Mechanism.builtin("torsion-module").drive()
+        True
+        """
+        return self._command("drive", _commands.options(tolerance=tolerance, samples=samples))
+
+    def _command(self, name: str, options: Iterable[str]) -> Answer:
+        """Runs a command on a file of the mechanism."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / f"{self.name}.toml"
+            file.write_text(self.export("toml"), encoding="utf-8")
+            return _commands.answer([name, file, *options])
 
     def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
-        """A drawing as SVG: the structural ``scheme``, or the ``kinematic`` one from the coordinates."""
+        """Returns a drawing as SVG: the structural ``scheme``, or the ``kinematic`` drawing from the coordinates."""
         return Drawing(self._native.draw(kind, state))
 
     def studio(self, *, show: bool = True) -> Mechanism:
-        """Opens the mechanism in the studio, a page in the browser to draw and change it, and gives back what became of it once its
-        window is closed, saved or not. With ``show=False`` the address is printed, to be opened by hand.
+        """Opens the mechanism in the studio in the browser, and returns the edited mechanism when its window is closed, saved or not.
 
-        It runs beside Python, in a folder of its own: nothing of yours is written to.
+        With ``show=False`` only the address is printed. The studio runs in its own folder and does not write to your files.
         """
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "mechanism.toml"
@@ -226,7 +269,7 @@ class Mechanism:
                 print(running.stdout.readline() if running.stdout else "", end="", flush=True)
             if running.returncode:
                 raise subprocess.CalledProcessError(running.returncode, words)
-            # What was not saved is what the window showed last.
+            # Without a save, the last state of the window is in the autosave file.
             unsaved = file.with_name("mechanism.toml.autosave")
             return Mechanism.from_toml((unsaved if unsaved.exists() else file).read_text(encoding="utf-8"))
 
@@ -264,12 +307,12 @@ class Mechanism:
         seed: int = 1,
         progress: Callable[[int, int, int], object] | None = None,
     ) -> Outcome:
-        """Every redesign that meets the conditions: exact counts, and the best of them one by one.
+        """Returns every redesign that meets the conditions: exact counts, and the best redesigns one by one.
 
-        The keywords are the options of ``ozols search``; names come as a list, or with commas between. ``forbid`` takes joints,
-        or joints with names of options; ``unloading`` types, or types with joints; ``costs`` a file of costs; ``rank`` terms, or terms with
-        weights; ``symmetry`` is ``all``, ``symmetric`` or ``one-per-orbit``. ``progress`` is called with layers done, layers in
-        all, and nodes so far.
+        The keywords are the options of ``ozols search``. Give names as a list or with commas. ``forbid`` takes joints, or joints
+        with names of options; ``unloading`` takes types, or types with joints; ``costs`` takes a file of costs; ``rank`` takes
+        terms, or terms with weights. ``symmetry`` is ``all``, ``symmetric`` or ``one-per-orbit``. ``progress`` is called with the
+        layers done, the total number of layers, and the nodes so far.
 
         >>> found = Mechanism.builtin("gripper-10").search(options=["cylindrical", "spherical"], max_changes=7)
         >>> found.determinate, found.admissible, found[0].cost
@@ -296,7 +339,7 @@ class Mechanism:
 
 
 class Builder:
-    """A mechanism joint by joint. ``data`` is the file so far, for what has no method.
+    """Builds a mechanism joint by joint. ``data`` has the keys of the file so far, for keys without a method.
 
     >>> plan = Builder("four-bar", mode="planar").link("frame", role="frame").link("rocker", role="output")
     >>> plan = plan.joint("A", "frame", "crank", point=(0, 0, 0), axis=(0, 0, 1), drive=True)
@@ -308,18 +351,18 @@ class Builder:
     """
 
     def __init__(self, name: str, **keys: Any) -> None:
-        """``keys`` are those of the file: ``length_unit``, ``description``, ``search`` and so on."""
+        """Starts a mechanism. ``keys`` are those of the file: ``length_unit``, ``description``, ``search`` and so on."""
         self.data: dict[str, Any] = {"name": name, **keys, "link": [], "joint": []}
 
     def link(self, id: str, **keys: Any) -> Builder:
-        """A link, with the keys of ``[[link]]``, such as ``role="output"``."""
+        """Adds a link with the keys of ``[[link]]``, such as ``role="output"``."""
         self.data["link"].append({"id": id, **keys})
         return self
 
     def joint(
         self, id: str, first: str, second: str, *, type: str = "revolute", point: Sequence[Any] = (0, 0, 0), **keys: Any
     ) -> Builder:
-        """A joint between two links, with the keys of ``[[joint]]``; a link that is new is added."""
+        """Adds a joint between two links with the keys of ``[[joint]]``, and the links that are new."""
         known = {link["id"] for link in self.data["link"]}
         for link in dict.fromkeys((first, second)):
             if link not in known:
@@ -328,5 +371,5 @@ class Builder:
         return self
 
     def build(self) -> Mechanism:
-        """The mechanism."""
+        """Returns the mechanism."""
         return Mechanism.from_dict(self.data)

@@ -1,4 +1,4 @@
-"""What a search found, and its variants."""
+"""Outcomes of searches, and their variants."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 class Drawing(str):
-    """A drawing as SVG, which a notebook shows."""
+    """A drawing as SVG. A notebook shows it."""
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes it to a file."""
+        """Writes the drawing to a file."""
         Path(path).write_text(self, encoding="utf-8")
 
     def _repr_svg_(self) -> str:
@@ -48,11 +48,11 @@ class Variant(View):
         return self._native.text
 
     def mechanism(self) -> Mechanism:
-        """The redesign as a mechanism of its own."""
+        """Returns the redesign as a mechanism."""
         return self._made(self._native.mechanism())
 
     def draw(self, kind: str = "scheme", *, state: str = "free") -> Drawing:
-        """The redesign with its changes marked, as ``ozols draw --variant``."""
+        """Returns a drawing of the redesign with its changes marked."""
         return Drawing(self._native.draw(kind, state))
 
     def _repr_svg_(self) -> str:
@@ -68,7 +68,7 @@ class Variant(View):
 
 
 class Outcome(Sequence[Variant]):
-    """What a search found: a sequence of the variants asked for, with the counts of all.
+    """The outcome of a search: a sequence of the requested variants, with counts of all variants.
 
     >>> import ozols
     >>> found = ozols.Mechanism.builtin("gripper-10").search(top=3)
@@ -89,22 +89,22 @@ class Outcome(Sequence[Variant]):
 
     @cached_property
     def counts(self) -> View:
-        """All keys of the JSON but the variants and what is told of them."""
+        """All keys of the JSON except the variants and the remarks on them."""
         return View(json.loads(self._native.counts()))
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON that the command prints, but for its first key, ``format``, and its last, ``seconds``."""
+        """Returns the JSON that the command prints, without the keys ``format`` and ``seconds``."""
         data: dict[str, Any] = json.loads(self._native.data())
-        # The number of the contract of what is printed; the package has a version of its own.
+        # The package has its own version.
         del data["format"]
         return data
 
     def to_csv(self) -> str:
-        """The variants asked for as the command's CSV."""
+        """Returns the requested variants as CSV, as the command writes it."""
         return self._native.csv()
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The same as a table of pandas."""
+        """Returns the requested variants as a table of pandas."""
         import pandas
 
         rows = [line for line in self.to_csv().splitlines() if not line.startswith("#")]
@@ -112,58 +112,62 @@ class Outcome(Sequence[Variant]):
 
     @property
     def space(self) -> int:
-        """How many variants there are to choose from."""
+        """The number of variants in the search space."""
         return int(self.counts["space"])
 
     @property
     def determinate(self) -> int:
-        """How many have no more redundant constraints than allowed; at least so many, where not :attr:`exact`."""
+        """The number of variants with at most the allowed redundant constraints; a lower bound if not :attr:`exact`."""
         return int(self.counts["determinate"])
 
     @property
     def admissible(self) -> int:
-        """How many meet every condition; at least so many, where not :attr:`exact`."""
+        """The number of variants that meet every condition in the drawn pose; a lower bound if not :attr:`exact`."""
         return int(self.counts["admissible"])
 
     @property
     def lasting(self) -> int | None:
-        """How many of the admissible ones keep the motion throughout the motion of the mechanism as built, which are the ones listed;
-        None where it is not followed, for the reason in ``counts["pose_only"]``."""
+        """The number of variants that keep the motion throughout the motion of the mechanism as built. These are the ones listed.
+
+        ``None`` if the motion is not followed; ``counts["pose_only"]`` has the reason.
+        """
         lasting = self.counts.get("lasting")
         return None if lasting is None else int(lasting)
 
     @property
     def exact(self) -> bool:
-        """Whether everything was looked at, so that counts are exact and the list is the best there is."""
+        """Whether the search was complete, so that counts are exact and the list has the best variants."""
         return bool(self.counts["exact"])
 
     @property
     def certainty(self) -> str | None:
-        """Why counts that no budget cut short are not exact: "numeric" (ranks by singular values, counts from and to under
-        ``counts.numeric``), "contradicted" or "undecided"; None where they are."""
+        """The reason why the counts of a complete search are not exact, or ``None`` if they are exact.
+
+        ``"numeric"`` (ranks by singular values; ``counts.numeric`` has the ranges), ``"contradicted"`` or ``"undecided"``.
+        """
         return self.counts.get("certainty")
 
     @property
     def determinate_by_mobility(self) -> dict[int, int]:
-        """The determinate ones by their mobility W."""
+        """The numbers of determinate variants by mobility W."""
         return {int(w): int(n) for w, n in self.counts["by_mobility"].items()}
 
     @property
     def admissible_by_mobility(self) -> dict[int, int]:
-        """The admissible ones by their mobility W."""
+        """The numbers of admissible variants by mobility W."""
         return {int(w): int(n) for w, n in self.counts["admissible_by_mobility"].items()}
 
     @cached_property
     def variants(self) -> list[Variant]:
-        """The variants asked for, the best first."""
+        """The requested variants, best first."""
         return list(self._shown(self._native.variants(False, None, 0)))
 
     def all(self) -> Iterator[Variant]:
-        """Every variant that the search lists, the cheapest first, however many there are: a million takes no more memory than ten."""
+        """Returns an iterator over every variant that the search lists, cheapest first. It does not store them."""
         return self._shown(self._native.variants(True, None, 0))
 
     def sample(self, count: int, seed: int = 1) -> Iterator[Variant]:
-        """Admissible variants drawn at random, each with the same chance."""
+        """Returns admissible variants drawn at random, each with equal probability."""
         return self._shown(self._native.variants(False, count, seed))
 
     def __iter__(self) -> Iterator[Variant]:

@@ -1,4 +1,4 @@
-"""Parts of a long work as tasks of Dask: pure, written under a name of their own and renamed when whole, never made twice."""
+"""Parts of long work as tasks of Dask. A part is written under a temporary name and renamed when complete."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from . import _native
 if TYPE_CHECKING:
     import distributed
 
-#: How long a scheduler that was lost has to come back, with workers, in seconds.
+#: Time for a lost scheduler to return with workers, in seconds.
 RESTART = 60
-#: Makes part (i, n) of a work at a path, with so many threads; numbers of its rows by table, and the digest of them all.
+#: Builds part (i, n) at a path with a number of threads, and returns the digest of its rows.
 Make = Callable[[Any, Path, tuple[int, int], int], "Digest"]
 
 
 class Digest:
-    """Numbers of rows by table, and the sum of the SHA-256 of all rows modulo 2^256: those of parts add up to the whole's."""
+    """The numbers of rows by table, and the sum of the SHA-256 of all rows modulo 2^256. Digests of parts add up."""
 
     def __init__(self, rows: Mapping[str, int], total: int) -> None:
         self.rows = dict(rows)
@@ -61,9 +61,9 @@ def build(
     threads: int,
     progress: Callable[[int, int], object] | None,
 ) -> None:
-    """Makes the parts of a work in the folder ``OUT.parts`` and puts them together as ``out``; their digests must add up.
+    """Builds the parts in the folder ``OUT.parts`` and merges them into ``out``. Their digests must add up.
 
-    ``name`` tells works of one kind apart, as a hash of all that decides their rows.
+    ``name`` identifies the work: it has everything that decides the rows.
     """
     folder = out.with_name(out.name + ".parts").resolve()
     folder.mkdir(parents=True, exist_ok=True)
@@ -91,18 +91,18 @@ def build(
     if made != sum((Digest(rows, int(total, 16)) for _, rows, total in parts), Digest({}, 0)):
         raise _native.Error(f"the parts in {folder} do not make the whole: delete it, and build again")
     os.replace(whole, out)
-    # A worker that was given up may still be at a part.
+    # A worker that was given up may still write a part.
     shutil.rmtree(folder, ignore_errors=True)
 
 
 class _Lost(Exception):
-    """The scheduler that had the tasks is gone, or knows nothing of them; the cause says how that was noticed."""
+    """The scheduler of the tasks is lost or has forgotten them; the cause has the error."""
 
 
 def _attempt(
     client: distributed.Client, tasks: Mapping[str, tuple[Any, ...]], progress: Callable[[int, int], object] | None
 ) -> list[tuple[str, dict[str, int], str]]:
-    """The tasks once; errors of their own are raised as they are."""
+    """Runs the tasks once. Raises their errors, and :class:`_Lost` if the scheduler is lost."""
     from concurrent.futures import CancelledError
 
     from distributed import as_completed
@@ -126,9 +126,9 @@ def _attempt(
 
 
 def _wait_for_a_worker(client: distributed.Client, until: float) -> None:
-    """Returns when the scheduler answers and has a worker; it may refuse, or cut connections, while it comes up."""
+    """Waits until the scheduler answers and has a worker. It may refuse connections while it starts."""
     while True:
-        # Not at once again, either, where the client has yet to notice that its tasks are gone.
+        # The client may not have noticed yet that its tasks are lost.
         time.sleep(0.1)
         try:
             client.wait_for_workers(1, timeout=max(1, math.ceil(until - time.monotonic())))
@@ -139,15 +139,15 @@ def _wait_for_a_worker(client: distributed.Client, until: float) -> None:
 
 
 def shared_out(client: distributed.Client, pieces: int) -> int:
-    """Parts so many that slow ones do not keep all others waiting at the end."""
+    """Returns a number of parts such that slow parts do not delay the end."""
     threads: int = sum(client.nthreads().values())
     return max(1, min(pieces, 8 * threads))
 
 
 def part(make: Make, asked: Any, at: str, part: tuple[int, int], threads: int) -> tuple[str, dict[str, int], str]:
-    """Makes a part at a path; the path and the digest. A finished one stays.
+    """Builds a part and returns its path and digest. A finished part is kept.
 
-    It is written under a name of its own and renamed when it is whole, so that the same part may be made twice at a time.
+    It is written under a temporary name and renamed when complete, so that two workers may build the same part.
     """
     path = Path(at)
     mark = path.with_suffix(".json")
@@ -155,14 +155,14 @@ def part(make: Make, asked: Any, at: str, part: tuple[int, int], threads: int) -
         rows, total = json.loads(mark.read_text())
         return at, rows, total
     own = f"{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex[:8]}.tmp"
-    made, told = (Path(f"{p}.{own}") for p in (path, mark))
+    built, mark_file = (Path(f"{p}.{own}") for p in (path, mark))
     try:
-        digest = make(asked, made, part, threads)
+        digest = make(asked, built, part, threads)
         found = digest.rows, f"{digest.total:064x}"
-        told.write_text(json.dumps(found))
-        os.replace(made, path)
-        os.replace(told, mark)
+        mark_file.write_text(json.dumps(found))
+        os.replace(built, path)
+        os.replace(mark_file, mark)
     finally:
-        for left in (made, told, Path(f"{made}-journal")):
+        for left in (built, mark_file, Path(f"{built}-journal")):
             left.unlink(missing_ok=True)
     return at, *found

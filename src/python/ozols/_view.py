@@ -1,4 +1,4 @@
-"""What the library found, by the keys of the JSON that the command prints."""
+"""Results by the keys of the JSON that the command prints."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas
 
-#: Rows of a table in a notebook at most.
+#: Maximum number of rows of a table in a notebook.
 ROWS = 30
 
 
@@ -29,7 +29,7 @@ def _plain(value: Any) -> bool:
 
 
 def table(records: Sequence[Mapping[str, Any]]) -> str:
-    """Rows as an HTML table, the first of them where there are many."""
+    """Returns rows as an HTML table, at most :data:`ROWS` of them."""
     columns = list(dict.fromkeys(k for r in records for k in r))
 
     def cells(tag: str, values: list[Any]) -> str:
@@ -42,7 +42,7 @@ def table(records: Sequence[Mapping[str, Any]]) -> str:
 
 
 class View(Mapping[str, Any]):
-    """Keys and values, the keys as attributes, too.
+    """A mapping whose keys are also attributes.
 
     >>> import ozols
     >>> state = ozols.Mechanism.builtin("bennett").analyze().states[0]
@@ -80,20 +80,20 @@ class View(Mapping[str, Any]):
         return f"{type(self).__name__}({self._data!r})"
 
     def to_dict(self) -> dict[str, Any]:
-        """The plain dictionary."""
+        """Returns the plain dictionary."""
         return self._data
 
 
-class Told(View):
-    """An answer: its keys, and the text that the command prints.
+class Answer(View):
+    """A result: its keys, and the text that the command prints.
 
     ``print(answer)`` shows the text; a notebook shows :attr:`records` as a table.
     """
 
     __slots__ = ("_rows", "csv", "svg", "text")
 
-    def __init__(self, told: tuple[str, str, str | None, str | None], rows: str | None = None) -> None:
-        data, self.text, self.csv, self.svg = told
+    def __init__(self, printed: tuple[str, str, str | None, str | None], rows: str | None = None) -> None:
+        data, self.text, self.csv, self.svg = printed
         super().__init__(json.loads(data))
         self._rows = rows
 
@@ -102,14 +102,14 @@ class Told(View):
 
     @property
     def records(self) -> list[dict[str, Any]]:
-        """The rows of its main table: states, positions or joints; empty where it has none."""
+        """The rows of the main table (states, positions or joints), or an empty list if there is none."""
         if self.csv is not None:
             return list(csv.DictReader(io.StringIO(self.csv)))
         rows = self._data.get(self._rows, []) if self._rows else []
         return [{k: v for k, v in row.items() if _plain(v)} for row in rows]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """:attr:`records` as a table of pandas."""
+        """Returns :attr:`records` as a table of pandas."""
         import pandas
 
         if self.csv is not None:
@@ -121,8 +121,8 @@ class Told(View):
         return table(records) if records else f"<pre>{html.escape(self.text)}</pre>"
 
 
-class Chart(Told):
-    """An answer that a notebook shows as a chart."""
+class Chart(Answer):
+    """A result that a notebook shows as a chart."""
 
     __slots__ = ()
 

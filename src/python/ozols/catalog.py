@@ -1,4 +1,4 @@
-"""Catalogues of structures that nobody has drawn yet: opened as tables, and built, on many machines if need be.
+"""Catalogues of gripper structures: building them, on many machines if needed, and opening them as tables.
 
 A catalogue is an SQLite file with the tables ``structures``, ``layouts``, ``drawn``, ``counts`` and ``ideas``
 (``ozols catalog query FILE "SELECT sql FROM sqlite_schema"`` explains every column).
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import polars
     import pyarrow
 
-#: The tables, each with what its rows are told apart by.
+#: The tables, each with the key of its rows.
 TABLES = {
     "structures": "id",
     "layouts": "structure",
@@ -37,17 +37,17 @@ TABLES = {
 }
 #: Columns of counts of variants: numbers, or their digits as text beyond 63 bits.
 COUNTS = {"determinate", "determinate_w1", "admissible", "variants"}
-#: The rows of structures: of ``counts`` and ``ideas`` those that are not of drawn mechanisms.
+#: The tables of structures, each with the column of the structure. Rows of drawn mechanisms do not count.
 BUILT = {"structures": "id", "layouts": "structure", "counts": "structure", "ideas": "structure"}
 
 
 def open(path: str | os.PathLike[str]) -> Catalog:
-    """Opens a catalogue to read."""
+    """Opens a catalogue for reading."""
     return Catalog(path)
 
 
 class Catalog:
-    """An open catalogue. What is asked of it is the name of a table or a view, or a question in SQL."""
+    """An open catalogue. Queries are names of tables or views, or SQL."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
@@ -59,11 +59,11 @@ class Catalog:
 
     @property
     def spec(self) -> str:
-        """What it holds of structures, as TOML; nothing where it holds drawn mechanisms alone."""
+        """The specification of its structures as TOML, or an empty string if it has drawn mechanisms only."""
         return self._meta.get("spec", "")
 
     def close(self) -> None:
-        """Lets go of the file."""
+        """Closes the file."""
         self._db.close()
 
     def __enter__(self) -> Catalog:
@@ -77,11 +77,11 @@ class Catalog:
         return count
 
     def ids(self) -> list[str]:
-        """The structures by their short names, ascending."""
+        """Returns the short names of the structures, ascending."""
         return [id for (id,) in self._db.execute("SELECT id FROM structures ORDER BY id")]
 
     def mechanism(self, id: str) -> Mechanism:
-        """A structure that was laid out, or what was drawn, as a mechanism."""
+        """Returns the layout of a structure, or a drawn mechanism."""
         sql = "SELECT mechanism FROM layouts WHERE structure = ?1 UNION ALL SELECT mechanism FROM drawn WHERE id = ?1"
         found = self._db.execute(sql, [id]).fetchone()
         if found is None:
@@ -103,19 +103,19 @@ class Catalog:
         return names, rows
 
     def query(self, what: str, params: Any = ()) -> list[dict[str, Any]]:
-        """Rows as dictionaries; ``params`` stand for ``?`` in a question."""
+        """Returns rows as dictionaries; ``params`` replace each ``?`` in SQL."""
         names, rows = self._ask(what, params)
         return [dict(zip(names, row)) for row in rows]
 
     def to_pandas(self, what: str = "structures", params: Any = ()) -> pandas.DataFrame:
-        """As a table of pandas; counts beyond 63 bits as Python's own integers."""
+        """Returns a table of pandas. Counts beyond 63 bits are Python integers."""
         import pandas
 
         names, rows = self._ask(what, params)
         return pandas.DataFrame(rows, columns=names)
 
     def to_arrow(self, what: str = "structures", params: Any = ()) -> pyarrow.Table:
-        """As a table of Arrow; counts of variants are decimals of 38 digits."""
+        """Returns a table of Arrow. Counts of variants are decimals of 38 digits."""
         import pyarrow
 
         names, rows = self._ask(what, params)
@@ -131,13 +131,13 @@ class Catalog:
         return pyarrow.table(arrays, names).replace_schema_metadata({"ozols.spec": self.spec})
 
     def to_polars(self, what: str = "structures", params: Any = ()) -> polars.DataFrame:
-        """As a table of polars, over Arrow."""
+        """Returns a table of polars, through Arrow."""
         import polars
 
         return polars.DataFrame(self.to_arrow(what, params))
 
     def to_parquet(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Writes every table to a Parquet file of its name in a folder."""
+        """Writes every table to a Parquet file in a folder, and returns the paths."""
         from pyarrow import parquet
 
         folder = Path(folder)
@@ -149,7 +149,7 @@ class Catalog:
         return out
 
     def digest(self) -> Digest:
-        """What the rows of its structures are: their numbers by table, and a hash that does not depend on their order."""
+        """Returns the numbers of rows of its structures by table, and a hash that does not depend on their order."""
         rows, total = {}, 0
         for table, key in BUILT.items():
             rows[table] = 0
@@ -171,12 +171,12 @@ def build(
     threads: int = 0,
     progress: Callable[[int, int], object] | None = None,
 ) -> Catalog:
-    """Builds what a catalogue lacks, here or on the workers of a Dask client.
+    """Builds the structures that a catalogue lacks, in this process or on the workers of a Dask client.
 
-    ``spec`` has the keys of a specification file: ``links``, ``inputs``, ``symmetries`` and so on. Here, ``threads`` (0: all
-    processors) share the structures, and ``progress`` hears structures done and in all. With a client, ``shards`` tasks of
-    ``threads`` (0: one) each make a part in the folder ``OUT.parts``, which the workers must share; ``progress`` hears parts.
-    What is finished is not made again, whatever was killed in between. Rows are the same either way.
+    ``spec`` has the keys of a specification file: ``links``, ``inputs``, ``symmetries`` and so on. In this process, ``threads``
+    (0: all processors) share the structures, and ``progress`` is called with the structures done and their total number. With
+    a client, ``shards`` tasks of ``threads`` (0: one) each build a part in the folder ``OUT.parts``, which the workers must share;
+    ``progress`` is called with parts. Finished parts are kept after an interruption. The rows are the same either way.
     """
     words = json.dumps(dict(spec or {}))
     canonical, ids = _native.catalog_plan(words)
@@ -194,7 +194,7 @@ def build(
         shards = shared_out(client, len(ids))
 
     def merge(whole: Path, made_of: list[Path]) -> Digest:
-        # What was drawn stays beside what is built.
+        # Drawn mechanisms of an older file are kept.
         if out.exists():
             shutil.copyfile(out, whole)
         _native.catalog_merge(whole, made_of)
