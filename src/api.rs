@@ -1,5 +1,4 @@
-//! The front door: a mechanism from a file or a name, its analysis, its redesigns, its drawings, and itself in other
-//! formats.
+//! The functions at the root of the library: read, analyse, search, draw and export a mechanism.
 
 use crate::builtin;
 use crate::draw::{self, Subject};
@@ -18,14 +17,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Largest robot description and file beside it, in bytes.
+/// Maximum size of a robot description and of each file that it includes, in bytes.
 pub(crate) const MAX_DESCRIPTION_BYTES: usize = 64 << 20;
 
-/// What went wrong, in the words of the command line.
+/// An error of the functions at the root.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file says what it should not; every problem with its place.
+    /// A file is invalid. Lists every problem with its place.
     #[error(transparent)]
     File(#[from] ImportError),
     /// A file cannot be read.
@@ -33,37 +32,54 @@ pub enum Error {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         why: io::Error,
     },
-    /// No mechanism of this name is built in.
+    /// There is no built-in mechanism of this name.
     #[error("{0} is not a built-in mechanism (`ozols list` shows them)")]
     NotBuiltIn(String),
     /// A mechanism cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// A mechanism cannot be searched as the request asks.
+    /// A mechanism cannot be searched as requested.
     #[error(transparent)]
     Search(#[from] RunError),
-    /// A format cannot say what a mechanism is.
+    /// A format cannot represent the mechanism.
     #[error(transparent)]
     Export(#[from] ExportError),
 }
 
-/// One of the mechanisms that are built in, by the name that [`builtin::names`] or `ozols list` gives.
+/// Returns a built-in mechanism by a name of [`builtin::names`] or `ozols list`.
 ///
 /// # Errors
-/// Where there is none of this name.
+/// Returns an error if there is no such name.
+///
+/// # Examples
+/// ```
+/// let bennett = ozols::built_in("bennett")?;
+/// assert_eq!(bennett.joints.len(), 4);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn built_in(name: &str) -> Result<Mechanism, Error> {
     let text = builtin::text(name).ok_or_else(|| Error::NotBuiltIn(name.to_owned()))?;
     Ok(mechanism_from_str(&format!("{name}.toml"), text)?)
 }
 
-/// Reads a mechanism file (JSON where its name ends in .json, else TOML) or a robot description or CAD assembly (URDF,
-/// MJCF, SDF, FCStd, ASMT, by the ending). What was approximated in a description is in the report of [`import`].
+/// Reads a mechanism file (TOML, or JSON if its name ends in `.json`), a robot description or a CAD assembly (URDF, MJCF, SDF,
+/// FCStd, ASMT, by the ending). [`import`] also reports what was approximated.
 ///
 /// # Errors
-/// Where the file cannot be read, and every problem in it, each with its place.
+/// Returns an error if the file cannot be read, or every problem in it with its place.
+///
+/// # Examples
+/// ```
+/// let folder = std::env::temp_dir();
+/// let path = folder.join("ozols-four-bar.urdf");
+/// std::fs::write(&path, ozols::export(&ozols::built_in("four-bar")?, "urdf")?).unwrap();
+/// let read = ozols::open(&path)?;
+/// assert_eq!(ozols::analyze(&read)?[0].redundant, 3);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn open(path: impl AsRef<Path>) -> Result<Mechanism, Error> {
     let path = path.as_ref();
     let name = path.display().to_string();
@@ -78,7 +94,13 @@ pub fn open(path: impl AsRef<Path>) -> Result<Mechanism, Error> {
 /// Reads the text of a mechanism file in TOML.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, with its place.
+///
+/// # Examples
+/// ```
+/// let error = ozols::from_toml("name = \"empty\"").unwrap_err();
+/// assert!(error.to_string().contains("link"));
+/// ```
 pub fn from_toml(text: &str) -> Result<Mechanism, Error> {
     Ok(mechanism_from_str("mechanism.toml", text)?)
 }
@@ -86,12 +108,20 @@ pub fn from_toml(text: &str) -> Result<Mechanism, Error> {
 /// Reads the text of a mechanism file in JSON.
 ///
 /// # Errors
-/// Every problem found, each with its place.
+/// Returns every problem found, with its place.
+///
+/// # Examples
+/// ```
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let again = ozols::from_json(&ozols::export(&four_bar, "json")?)?;
+/// assert_eq!(again.name, four_bar.name);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn from_json(text: &str) -> Result<Mechanism, Error> {
     Ok(mechanism_from_str("mechanism.json", text)?)
 }
 
-/// The bytes of a file, one more than `limit` at most: the reader of them says that there are too many.
+/// Returns the bytes of a file, at most `limit` + 1. The reader refuses more than `limit`.
 pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
     disk::bytes(path, limit).map_err(|why| Error::Read {
         path: path.to_owned(),
@@ -99,18 +129,18 @@ pub(crate) fn bytes(path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
     })
 }
 
-/// Imports a robot description or CAD assembly, with a report of what was approximated; files it includes are read from its folder and
-/// from the folders of models that the options name, and nowhere else.
+/// Imports a robot description or CAD assembly, and reports what was approximated. Included files are read only from its folder
+/// and from the folders of models in the options.
 ///
 /// # Errors
-/// Where a file cannot be read, and every problem in it.
+/// Returns an error if a file cannot be read, or every problem in it.
 pub fn import(path: impl AsRef<Path>, options: &Options) -> Result<Imported, Error> {
     let path = path.as_ref();
     let bytes = bytes(path, MAX_DESCRIPTION_BYTES)?;
     description_of(path, &bytes, options)
 }
 
-/// Imports the text of a robot description as if it stood in a file.
+/// Imports the text of a robot description. `path` names it, and its folder has the included files.
 pub(crate) fn description_of(
     path: &Path,
     bytes: &[u8],
@@ -129,7 +159,7 @@ pub(crate) fn description_of(
     Ok(robots::import(&name, bytes, &read, options)?)
 }
 
-/// The bytes of an included file: of the description's own folder, or of one of the folders of models.
+/// Returns the bytes of an included file, from the folder of the description or from a folder of models.
 fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>> {
     let (roots, name): (Vec<&Path>, &str) = match name.split_once("://") {
         Some(("model", name)) => (models.iter().map(PathBuf::as_path).collect(), name),
@@ -162,19 +192,20 @@ fn included(folder: &Path, models: &[PathBuf], name: &str) -> io::Result<Vec<u8>
     Err(why)
 }
 
-/// The structure of a mechanism in each of its states, the free one first: mobility, redundant constraints, contour by
-/// contour, and how certain that is.
+/// Returns the mobility and the redundant constraints of a mechanism in each of its states, the free state first, loop by
+/// loop.
 ///
 /// # Guarantee
-/// Exact where the geometry is; where its coordinates look measured, what singular values say to within the digits. Each
-/// state's `certainty` tells.
+/// Results are exact if the geometry is exact. For rounded coordinates they use singular values within the digits. The field
+/// `certainty` of each state has the method.
 ///
 /// # Errors
-/// Where the geometry has no exact image, the singular values fail, or two primes disagree.
+/// Returns an error if the geometry has no exact image, the singular values fail, or two primes disagree.
 ///
 /// # Sources
 /// `[Pogrebnyak 2018]` for the figures of the example.
 ///
+/// # Examples
 /// ```
 /// let gripper = ozols::built_in("gripper-10")?;
 /// let free = &ozols::analyze(&gripper)?[0];
@@ -187,30 +218,39 @@ pub fn analyze(mechanism: &Mechanism) -> Result<Vec<StateAnalysis>, Error> {
     Ok(analyse(mechanism, &states, method)?)
 }
 
-/// Every redesign of a mechanism that meets a request: exact counts, and the best of them one by one.
+/// Returns every redesign of a mechanism that meets a request: exact counts, and the best redesigns one by one.
 ///
-/// [`run`] does the same, can be cancelled and says how far it has come.
+/// [`run`] does the same, can be cancelled, and reports progress.
 ///
 /// # Units
-/// Costs are those of the file, 1 a freedom unless it says otherwise; forces of a ranking in N, moments in N·m, errors in m.
+/// Costs are those of the file, by default 1 for each freedom. Rankings use N, N·m and m.
 ///
 /// # Guarantee
-/// Counts are exact where [`Outcome::is_exact`], and lower bounds where the node budget ended the search. With the default
-/// check the whole diagram agrees modulo two primes near 2^61, and each variant given is analysed again by singular values.
+/// Counts are exact if [`Outcome::is_exact`], and lower bounds if the node budget ended the search. By default the whole diagram
+/// is checked modulo a second prime near 2^61, and each listed variant is analysed again by singular values.
 ///
 /// # Errors
-/// Where the request names what the mechanism has not, measured coordinates change the figures, two primes disagree, or a
-/// ranking asks for loads that are not there.
+/// Returns an error if the request names a joint, link or type that the mechanism does not have, if rounded coordinates change
+/// the result, if two primes disagree, or if a ranking needs loads that the file does not state.
+///
+/// # Examples
+/// ```
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let outcome = ozols::search(&four_bar, &ozols::Request::default())?;
+/// assert!(outcome.is_exact());
+/// let best = outcome.variants().next().unwrap();
+/// assert_eq!(best.redundant(), 0);
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn search(mechanism: &Mechanism, request: &Request) -> Result<Outcome, Error> {
     Ok(run(mechanism.clone(), request, &|| false, &mut |_| {})?)
 }
 
-/// A mechanism in another format, as text: `toml` and `json` for the mechanism file, `urdf`, `mjcf`, `sdf`, `dot` and `graphml`;
-/// see
-/// [`formats::written`].
+/// Returns a mechanism as text in another format: `toml`, `json`, `urdf`, `mjcf`, `sdf`, `dot` or `graphml`. [`formats::written`]
+/// lists them.
 ///
 /// # Errors
-/// Where there is no such format, or it has no such joint.
+/// Returns an error if there is no such format, or if it cannot represent a joint.
 ///
 /// # Examples
 /// ```
@@ -222,19 +262,27 @@ pub fn export(mechanism: &Mechanism, format: &str) -> Result<String, Error> {
     Ok(formats::write(mechanism, format)?)
 }
 
-/// A drawing of a mechanism.
+/// A kind of drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scheme {
-    /// Links as polygons, joints as circles with their class, contours tinted by their redundant constraints.
+    /// Links as polygons, joints as circles with their class, and loops tinted by their redundant constraints.
     Structural,
-    /// Links and the symbols of joints in place, from the coordinates.
+    /// Links and symbols of joints at their coordinates.
     Kinematic,
 }
 
-/// A drawing of a mechanism in its free state, as SVG that needs nothing beside it.
+/// Returns a drawing of a mechanism in its free state as a self-contained SVG.
 ///
 /// # Errors
-/// As [`analyze`]: the structural scheme shows where the redundant constraints are.
+/// Returns the errors of [`analyze`]: the drawing shows the redundant constraints.
+///
+/// # Examples
+/// ```
+/// let four_bar = ozols::built_in("four-bar")?;
+/// let svg = ozols::draw(&four_bar, ozols::Scheme::Kinematic)?;
+/// assert!(svg.starts_with("<svg"));
+/// # Ok::<(), ozols::Error>(())
+/// ```
 pub fn draw(mechanism: &Mechanism, scheme: Scheme) -> Result<String, Error> {
     let found = analyse(mechanism, &[StateId::FREE], Method::Auto)?;
     let subject = Subject {

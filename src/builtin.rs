@@ -1,5 +1,5 @@
-//! The catalogue of mechanisms built into the program: `catalogs/`, a folder for each family. Beside them stand specifications of
-//! catalogues of grippers, which are not built in.
+//! The catalogue of mechanisms built into the program: `catalogs/`, a folder for each family. The folder also has
+//! specifications of catalogues of grippers, which are not built in.
 
 use include_dir::{Dir, File, include_dir};
 

@@ -1,12 +1,11 @@
-//! The guide: what the program does, system by system, with outputs that a test repeats.
+//! The guide: what the program does, system by system, with outputs that the tests repeat.
 //!
 //! Start with [`first_hour`], or draw in the [`studio`]. Then one chapter for each system: [`structure`] (redundant constraints and the search for
-//! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] where
-//! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures
-//! that nobody has drawn yet), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
-//! read [`architecture`] and [`adding`]; what changed is in the [`changelog`].
+//! redesigns), [`grip`], [`kinetostatics`], [`drive`]; and one each for [`ranking`] under a workload, [`mobility`] when
+//! formulas and numbers fail, [`robots`] (import and export), [`assemblies`] of CAD programs, [`beside`] other tools, [`catalog`] (structures of grippers by enumeration), and [`speed`]. For programs: [`rust`] and [`python`]. Contributors:
+//! read [`architecture`] and [`adding`]; the [`changelog`] lists changes.
 //!
-//! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` stands for lines left out.
+//! Every block that begins with `$ ozols` is run by the tests (`tests/it/documents.rs`); `...` marks omitted lines.
 
 #[doc = include_str!("guide/first_hour.md")]
 pub mod first_hour {}

@@ -1,15 +1,15 @@
-//! ozols finds the redundant constraints of a mechanism, contour by contour, and every way of lowering joint classes or
-//! inserting unloading joints that removes them without changing the working motion.
+//! ozols finds the redundant constraints of a mechanism, loop by loop, and every way of lowering joint classes or inserting
+//! unloading joints that removes them without changing the working motion.
 //!
 //! # The idea
 //!
-//! Give every joint a basis of unit twists in the reference pose and stack the closure equations of the k independent
-//! contours into a matrix J with 6k rows and f columns. Then the mobility is W = f - rank J, the number of redundant
-//! constraints is σ = 6k - rank J, and Ozols' σ = W + 6k - f holds identically ([`redundancy::analysis`]).
+//! Each joint has a basis of unit twists in the reference pose. The closure equations of the k independent loops form a matrix J
+//! with 6k rows and f columns. The mobility is W = f - rank J, the number of redundant constraints is σ = 6k - rank J, and
+//! Ozols' formula σ = W + 6k - f holds identically ([`redundancy::analysis`]).
 //!
-//! Lowering a joint's class appends columns to J. What a partly chosen mechanism means to the choices still to come is
-//! only the space of motions it leaves, so variants fold into a decision diagram whose nodes are subspaces over a prime
-//! field ([`mod@search`]): spaces of 10^10 variants are counted exactly in milliseconds.
+//! Lowering the class of a joint appends columns to J. The choices that remain depend on a partly chosen mechanism only through
+//! a subspace. Variants therefore share the states of a decision diagram whose states are subspaces over a prime field
+//! ([`mod@search`]): 10^10 variants are counted exactly in milliseconds.
 //!
 //! # Example
 //!
@@ -27,13 +27,12 @@
 //! # Ok::<(), ozols::Error>(())
 //! ```
 //!
-//! More in [Using ozols from Rust](guide::rust). What stands at the root is meant for others; the modules are the program's
-//! own rooms, public so that tests, benches and the curious may look, and their items may change from one version to the
-//! next.
+//! [Using ozols from Rust](guide::rust) has more. The items at the root are stable within a minor version. The modules are public
+//! for tests and benchmarks, and their items may change in any version.
 //!
 //! # Layers
 //!
-//! mechanism -> search -> outcome -> view: [`guide::architecture`] says what each module holds and which may import which.
+//! mechanism -> search -> outcome -> view: [`guide::architecture`] describes each module and the allowed imports.
 //!
 //! # Sources
 //!

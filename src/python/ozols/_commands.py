@@ -1,4 +1,4 @@
-"""Commands that run in a process of their own: :func:`lint`, :func:`fix`, and the workload of a mechanism."""
+"""Commands that run as a separate process: :func:`lint`, :func:`fix`, and the workload of a mechanism."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What ozols says of an assembly that is open in FreeCAD, and its joint types changed there.
+"""Checks an assembly that is open in FreeCAD, and changes its joint types there.
 
-Nothing here imports FreeCAD: a document is anything with ``saveCopy`` and ``Objects``, so that this is tested without it. The
-macro and the panel beside the package (``src/python/freecad``) show what it gives. OZOLS may name the program to ask in place of
-the package's own.
+Nothing here imports FreeCAD: a document is anything with ``saveCopy`` and ``Objects``, so the tests do not need it. The
+macro and the panel in ``src/python/freecad`` show the results. The environment variable OZOLS may name another program than the
+one of the package.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ __all__ = ["Change", "Error", "Finding", "Found", "check", "take"]
 
 
 class Error(RuntimeError):
-    """What went wrong, in the words of the command line."""
+    """An error of ozols."""
 
 
 @dataclass(frozen=True)
 class Change:
-    """Another type for a joint, as FreeCAD calls it."""
+    """A change of the type of a joint, in the names of FreeCAD."""
 
     joint: str
     before: str
@@ -38,7 +38,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Finding:
-    """A redundant constraint: the joint, what of it is held twice, and the joints that hold the same."""
+    """A redundant constraint: the joint, the constrained direction, and the joints that constrain it, too."""
 
     joint: str
     row: str
@@ -52,10 +52,10 @@ class Finding:
 
 @dataclass(frozen=True)
 class Found:
-    """What was found in an assembly.
+    """The result for an assembly.
 
-    ``freedoms`` is W, ``redundant`` σ, the least it can be where digits leave it open, and ``counted`` six a part less all
-    constraints, which FreeCAD shows.
+    ``freedoms`` is W. ``redundant`` is σ, or its minimum if the digits leave it open. ``counted`` is six per part minus all
+    constraints, the number that FreeCAD shows.
     """
 
     freedoms: int
@@ -103,11 +103,11 @@ def _lint(path: str, assembly: str | None) -> dict[str, Any]:
 
 
 def check(document: Any, assembly: str | None = None) -> Found:
-    """What ozols finds in a document as it is now, saved or not: a copy of it is looked at.
+    """Returns the result for a document as it is now, saved or not. It reads a copy.
 
     :param document: FreeCAD's document, such as ``App.ActiveDocument``.
-    :param assembly: label of the assembly, where there are several; the one with most joints by default.
-    :raises Error: where the document cannot be read as an assembly, or nothing in it can move.
+    :param assembly: label of the assembly if there are several; by default the one with most joints.
+    :raises Error: if the document cannot be read as an assembly, or nothing in it can move.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "assembly.FCStd")
@@ -137,22 +137,22 @@ def check(document: Any, assembly: str | None = None) -> Found:
 def _joint(document: Any, label: str) -> Any:
     found = [o for o in document.Objects if hasattr(o, "JointType") and o.Label == label]
     if len(found) != 1:
-        # Of two joints of one label the second is told with its name.
+        # If two joints have one label, the label of the second includes its name.
         found = [o for o in document.Objects if hasattr(o, "JointType") and label == f"{o.Label} ({o.Name})"] or found[:1]
     if not found:
-        raise Error(f"there is no joint {label} in the document; look at it again")
+        raise Error(f"there is no joint {label} in the document; check it again")
     return found[0]
 
 
 def take(document: Any, changes: Sequence[Change]) -> None:
-    """Gives joints of an open document their new types, in one step that can be undone.
+    """Sets the new types of joints in an open document, in one step that can be undone.
 
-    :raises Error: where a joint is not there, or is of another type by now; nothing is changed then.
+    :raises Error: if a joint does not exist or has another type by now; nothing is changed then.
     """
     joints = [(_joint(document, c.joint), c) for c in changes]
     for joint, change in joints:
         if joint.JointType != change.before:
-            raise Error(f"{change.joint} is {joint.JointType} by now, not {change.before}; look at the document again")
+            raise Error(f"{change.joint} is {joint.JointType} by now, not {change.before}; check the document again")
     document.openTransaction("Joint types without redundant constraints")
     for joint, change in joints:
         joint.JointType = change.after
