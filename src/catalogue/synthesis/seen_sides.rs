@@ -10,6 +10,9 @@ use itertools::Itertools;
 /// A pin nearer than this to a link that it is no part of lies on it.
 pub(crate) const ON: f64 = 6.0;
 
+/// The additional cost of a crossing between plates of two jaws, which no designer would build.
+const JAWS_CROSS: f64 = 6.0;
+
 pub(crate) fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let side = |p: Point, q: Point, r: Point| cross_plane(sub(q, p), sub(r, p)) > 0.0;
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
@@ -201,8 +204,16 @@ impl SeenSides {
         let foreign: u32 = sides.clone().map(|s| s.foreign).sum();
         // Each of both sides crosses the other.
         let count = crossed / 2 + foreign;
-        let penalty: f64 = sides.map(|s| s.penalty).sum();
-        (count as usize, penalty + 1.5 * f64::from(count))
+        let penalty: f64 = sides.clone().map(|s| s.penalty).sum();
+        let is_of_jaw = |s: &SideSeen| bones.jaws.contains(&s.side.link);
+        let of_jaws = sides.clone().enumerate().filter(|(_, s)| is_of_jaw(s));
+        let of_jaws = of_jaws.fold(0, |all, (i, _)| all | 1 << i);
+        let between_jaws = sides.filter(|s| is_of_jaw(s));
+        let between_jaws: u32 = between_jaws
+            .map(|s| (s.crossed & of_jaws).count_ones())
+            .sum();
+        let costs = 1.5 * f64::from(count) + JAWS_CROSS * f64::from(between_jaws / 2);
+        (count as usize, penalty + costs)
     }
 }
 

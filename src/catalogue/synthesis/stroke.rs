@@ -35,6 +35,10 @@ impl Task {
     }
 }
 
+/// The cost of a stroke on which a jaw opens while the others close: more than the smallest transmission angle costs, since a
+/// gripper with a small angle is of more use than one that does not close.
+const OPENS: f64 = 60.0;
+
 impl Limits {
     /// What a stroke costs, 0 at best. First that both ends are reached, then what the task and the limits ask.
     #[must_use]
@@ -53,6 +57,9 @@ impl Limits {
             cost += 3.0 * beyond(lacks, 0.2).min(10.0);
         }
         cost += 2.0 * beyond(0.6 - f.straightness, 0.5);
+        if f.straightness <= 0.0 {
+            cost += OPENS;
+        }
         cost += 4.0 * beyond(task.transmission + 4.0 - f.transmission, 8.0);
         let most = if task.pin_force > 0.0 {
             task.pin_force

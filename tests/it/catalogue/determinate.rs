@@ -94,10 +94,15 @@ fn determinate_variants_of_known_chains_are_as_published() {
                 return;
             }
             seen.push(code);
-            let l = layout(&s, &Limits::default(), 1).unwrap();
-            let outcome = ozols::search(&generic(&s, &l, true), &Request::default()).unwrap();
-            let one = outcome.determinate.by_mobility[&1].to_string();
-            found.push((links, outcome.determinate.to_string(), one));
+            // Whole millimetres may be special by chance, and then have fewer variants: the more general of two layouts counts.
+            let counted = |seed| {
+                let l = layout(&s, &Limits::default(), seed).unwrap();
+                let outcome = ozols::search(&generic(&s, &l, true), &Request::default()).unwrap();
+                let one = outcome.determinate.by_mobility[&1].clone();
+                (outcome.determinate.total.clone(), one)
+            };
+            let (all, one) = counted(1).max(counted(2));
+            found.push((links, all.to_string(), one.to_string()));
         });
     }
     let text = |k: &(usize, Option<&str>, u64, u64)| (k.0, k.2.to_string(), k.3.to_string());

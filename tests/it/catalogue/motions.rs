@@ -1,6 +1,6 @@
 //! Figures of a layout's motion against places solved afresh: transmission angles, forces, travel.
 
-use super::{Drawn, each, form, layout, moved, moved_points};
+use super::{each, form, layout, moved};
 use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::{LayoutFigures, figures};
 use ozols::synthesis::structure::Structure;
@@ -11,15 +11,6 @@ fn step(s: &Structure) -> f64 {
         Input::Slide => 1e-4,
         Input::Turn => 2e-6,
     }
-}
-
-/// Velocities of points of links, by differences.
-fn speeds(s: &Structure, l: &Drawn, points: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
-    let h = step(s);
-    let [a, b] = [-h, h].map(|drive| moved_points(s, l, drive, points));
-    let each = a.iter().zip(&b);
-    each.map(|(a, b)| [0, 1].map(|i| (b[i] - a[i]) / (2.0 * h)))
-        .collect()
 }
 
 /// Work in is work out, pose by pose: a jaw's force over the drive's is the drive's way over all the jaws' together.

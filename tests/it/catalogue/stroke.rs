@@ -364,6 +364,11 @@ fn other_tasks_are_done_as_well() {
         motion: AskedMotion::Parallel,
         ..Task::default()
     };
+    // Jaws on parallelograms that open by 50 mm have less than 25 degrees at the ends of their stroke: 17.9 and 19.9.
+    let on_long_rods = Task {
+        transmission: 15.0,
+        ..parallel
+    };
     let swinging = Task {
         motion: AskedMotion::Swinging,
         ..Task::default()
@@ -377,7 +382,7 @@ fn other_tasks_are_done_as_well() {
     for (task, of, every) in [
         (wide, generic, 6),
         (parallel, generic, 13),
-        (parallel, on_parallelograms, 1),
+        (on_long_rods, on_parallelograms, 1),
         (swinging, generic, 6),
         (tight, generic, 6),
     ] {

@@ -329,8 +329,9 @@ fn well_known_schemes_are_as_worked_out() {
 fn three_jaws_without_symmetry_are_as_worked_out() {
     let mut all = all_of(three_generic::free());
     // Where a jaw turns back it passes nothing on, and poses beside that one see other angles.
-    all.retain(|row| row["shortfall"].is_null());
-    assert!(all.len() > 75, "{}", all.len());
+    let turns_back = |why: &str| why.starts_with("a jaw opens");
+    all.retain(|row| !row["shortfall"].as_str().is_some_and(turns_back));
+    assert!(all.len() > 60, "{}", all.len());
     all.iter().for_each(is_as_worked_out);
 }
 
