@@ -264,14 +264,15 @@ impl Looked<'_> {
     }
 }
 
-/// The least of a list over the stroke, and by how much it may be less between its poses: half of what it changes to those beside it.
+/// Returns the least of a list over the stroke, and by how much it changes to the poses before and after: those of the catalogue lie
+/// between them. A rod that comes to rest for a moment has any angle there, and carries no force.
 fn least(list: &[f64]) -> (f64, f64) {
     let at = (0..list.len()).min_by(|&i, &j| list[i].total_cmp(&list[j]));
     let at = at.unwrap();
     // Both ends are looked at by either.
     let beside = list.get(at.wrapping_sub(1)..at + 2).unwrap_or_default();
     let change = beside.iter().map(|x| x - list[at]);
-    (list[at], change.fold(0.0, f64::max) / 2.0)
+    (list[at], change.fold(0.0, f64::max))
 }
 
 /// The figures of a layout over its stroke: four digits of them are told, and poses lie a little beside those of the catalogue.
