@@ -349,14 +349,10 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
         assert_eq!(row[error], off.unwrap_or_default(), "{row:?}");
     }
     let other = folder.path().join("other");
-    run(&[
-        "accuracy",
-        "--quick",
-        "--threads",
-        "1",
-        "-o",
-        other.to_str().unwrap(),
-    ]);
+    run(&format!(
+        "accuracy --quick --threads 1 -o {}",
+        other.display()
+    ));
     for (one, two) in verdicts(at).into_iter().zip(verdicts(&other)) {
         assert!(one == two, "{} differs between runs", one.0);
     }

@@ -84,14 +84,7 @@ fn the_truth_is_what_is_known() {
     assert_eq!(t.found, Some(known));
     assert!(!t.whole && t.looked == 400 && t.ranked.is_none());
     let t = trial_of("goldberg-5r");
-    let counts = json(&[
-        "search",
-        "goldberg-5r",
-        "--method",
-        "brute",
-        "--format",
-        "json",
-    ]);
+    let counts = json("search goldberg-5r --method brute --format json");
     let known = ["determinate", "admissible"].map(|k| BigUint::from(count(&counts[k])));
     assert_eq!((t.whole, t.found), (true, Some(known)));
 }

@@ -79,15 +79,9 @@ fn brute_force_agrees_on_the_second_row() {
     let names = "revolute,cylindrical,universal,spherical";
     let (row, brute) = (
         row(names),
-        json(&[
-            "search",
-            "gripper-10",
-            "--count",
-            "--options",
-            names,
-            "--method",
-            "brute",
-        ]),
+        json(&format!(
+            "search gripper-10 --count --options {names} --method brute"
+        )),
     );
     for key in
         words("determinate by_mobility_and_changes admissible admissible_by_mobility_and_changes")

@@ -226,7 +226,7 @@ fn what_cannot_be_done_is_said() {
     .unwrap();
     fails(&["catalog", "query", &other], "is not a catalogue");
     fails(
-        &["catalog", "build", "--links", "4", "-o", &other],
+        &format!("catalog build --links 4 -o {other}"),
         "is not a catalogue",
     );
     assert!(
@@ -235,33 +235,21 @@ fn what_cannot_be_done_is_said() {
             .starts_with("This is no database")
     );
     fails(
-        &["catalog", "query", &at(&folder, "missing.db")],
+        &format!("catalog query {}", at(&folder, "missing.db")),
         "missing.db",
     );
     assert!(!Path::new(&at(&folder, "missing.db")).exists());
     let spec = at(&folder, "spec.toml");
     std::fs::write(&spec, "links = \"4\"\ncolour = \"red\"\n").unwrap();
     fails(
-        &[
-            "catalog",
-            "build",
-            "--spec",
-            &spec,
-            "-o",
-            &at(&folder, "s.db"),
-        ],
+        &format!("catalog build --spec {spec} -o {}", at(&folder, "s.db")),
         "colour",
     );
     std::fs::write(&spec, "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n").unwrap();
-    let told = ozols(&[
-        "catalog",
-        "build",
-        "--spec",
-        &spec,
-        "-o",
-        &at(&folder, "s.db"),
-        "--quiet",
-    ])
+    let told = ozols(&format!(
+        "catalog build --spec {spec} -o {} --quiet",
+        at(&folder, "s.db")
+    ))
     .output()
     .unwrap();
     assert!(
@@ -277,7 +265,7 @@ fn drawn_mechanisms_stand_beside_the_structures() {
     let file = at(&folder, "all.db");
     // Wrong names alone: nothing is begun.
     fails(
-        &["catalog", "search", "tong", "gripper-11", "-o", &file],
+        &format!("catalog search tong gripper-11 -o {file}"),
         "gripper-1",
     );
     assert!(!Path::new(&file).exists());
@@ -322,16 +310,9 @@ fn drawn_mechanisms_stand_beside_the_structures() {
         "{told}"
     );
     let redesign = at(&folder, "redesign.toml");
-    ok(&[
-        "catalog",
-        "export",
-        &merged,
-        "gripper-10",
-        "--idea",
-        "1",
-        "-o",
-        &redesign,
-    ]);
+    ok(&format!(
+        "catalog export {merged} gripper-10 --idea 1 -o {redesign}"
+    ));
     let analysed = ok(&["analyze", &redesign, "--format", "json"]);
     let analysed: serde_json::Value = serde_json::from_str(&analysed).unwrap();
     assert_eq!(analysed["states"][0]["redundant"], 0, "{analysed}");

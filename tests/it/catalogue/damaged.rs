@@ -56,9 +56,7 @@ fn what_fails_the_quick_check_is_refused_by_every_command() {
         "catalog", "build", "--links", "4", "--ideas", "2", "--quiet", "-o",
     ];
     ok(&[&build[..], &[&good]].concat());
-    ok(&[
-        "catalog", "search", "four-bar", "--ideas", "2", "-q", "-o", &good,
-    ]);
+    ok(&format!("catalog search four-bar --ideas 2 -q -o {good}"));
     let bytes = fs::read(&good).unwrap();
     let ids = "SELECT structure FROM layouts LIMIT 1";
     let id = ok(&["catalog", "query", &good, ids, "--format", "csv"]);

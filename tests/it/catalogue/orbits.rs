@@ -143,21 +143,9 @@ fn orbits_are_those_of_a_list_of_all_variants() {
 fn a_file_says_what_a_turn_carries_round() {
     let folder = tempdir().unwrap();
     let (db, file) = (at(&folder, "g.db"), at(&folder, "m.toml"));
-    ok(&[
-        "catalog",
-        "build",
-        "--links",
-        "6",
-        "--symmetry",
-        "half-turn",
-        "--parallel",
-        "without",
-        "--ideas",
-        "1",
-        "--quiet",
-        "-o",
-        &db,
-    ]);
+    ok(&format!(
+        "catalog build --links 6 --symmetry half-turn --parallel without --ideas 1 --quiet -o {db}"
+    ));
     let sql = "SELECT id, determinate_w1, orbits_w1 FROM structures JOIN layouts ON structure = id ORDER BY id LIMIT 1";
     let line = ok(&["catalog", "query", &db, sql, "--format", "csv"]);
     let row: Vec<&str> = line.lines().nth(1).unwrap().split(',').collect();

@@ -82,15 +82,9 @@ fn are_images(file: &str) {
             "-o",
             &toml,
         ]);
-        let found = ok(&[
-            "search",
-            &toml,
-            "--max-mobility",
-            "1",
-            "--quiet",
-            "--format",
-            "json",
-        ]);
+        let found = ok(&format!(
+            "search {toml} --max-mobility 1 --quiet --format json"
+        ));
         let found: Value = serde_json::from_str(&found).unwrap();
         assert_eq!(
             found["determinate"].as_str().unwrap(),
@@ -352,9 +346,10 @@ fn parts_make_the_whole_and_nothing_is_made_twice() {
         small(&part, &["--shard", &format!("{i}/3")]);
         part
     });
-    ok(&[
-        "catalog", "merge", &parts[0], &parts[1], &parts[2], "-o", &merged,
-    ]);
+    ok(&format!(
+        "catalog merge {} {} {} -o {merged}",
+        parts[0], parts[1], parts[2]
+    ));
     assert_eq!(whole(&merged), whole(&one));
     assert!(whole(&one).contains("wedge-levers"));
     assert!(small(&one, &[]).contains("0 structures added"));

@@ -18,9 +18,9 @@ pub(super) fn all_of_six() -> &'static str {
     let (_, file) = FILE.get_or_init(|| {
         let folder = tempdir().unwrap();
         let file = at(&folder, "all.db");
-        ok(&[
-            "catalog", "build", "--links", "4..6", "--ideas", "6", "--quiet", "-o", &file,
-        ]);
+        ok(&format!(
+            "catalog build --links 4..6 --ideas 6 --quiet -o {file}"
+        ));
         (folder, file)
     });
     file

@@ -94,7 +94,7 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
     change(&file, "CREATE TABLE x (y); DROP TABLE x;");
     assert!(!fs::read(&file).unwrap().is_empty());
     fails(
-        &["catalog", "query", &file],
+        &format!("catalog query {file}"),
         "run it again and it carries on",
     );
     tiny(&folder, "empty.db", &[]);

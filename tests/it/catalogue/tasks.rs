@@ -225,15 +225,9 @@ fn an_empty_answer_says_what_is_in_the_way() {
     let file = all_of_six();
     let greatest = "SELECT count(*) AS n, max(least_force) AS most FROM grippers WHERE turn <= 30";
     let greatest = &rows(file, &[greatest])[0];
-    let o = run(&[
-        "catalog",
-        "query",
-        file,
-        "--least-force",
-        "1000",
-        "--turn",
-        "30",
-    ]);
+    let o = run(&format!(
+        "catalog query {file} --least-force 1000 --turn 30"
+    ));
     assert_eq!(o.status.code(), Some(1));
     let told = text(&o.stderr);
     let line = told
@@ -250,15 +244,9 @@ fn an_empty_answer_says_what_is_in_the_way() {
     assert!((most / exact - 1.0).abs() < 1e-3, "{most} {exact}");
     // The turn alone is not: without it there is none, either.
     assert!(!told.contains("without --turn"), "{told}");
-    let o = run(&[
-        "catalog",
-        "query",
-        file,
-        "--least-force",
-        "1000",
-        "--price",
-        "0",
-    ]);
+    let o = run(&format!(
+        "catalog query {file} --least-force 1000 --price 0"
+    ));
     assert!(text(&o.stderr).contains("two or more of them"), "{o:?}");
 }
 
@@ -279,9 +267,7 @@ fn a_task_is_a_table_and_options() {
     ok(&words);
     assert_eq!(super::command::whole(&one), super::command::whole(&two));
     fails(
-        &[
-            "catalog", "build", "--links", "4", "--ideas", "1", "-o", &one,
-        ],
+        &format!("catalog build --links 4 --ideas 1 -o {one}"),
         "differs",
     );
     for (line, says) in [
@@ -295,14 +281,7 @@ fn a_task_is_a_table_and_options() {
     ] {
         std::fs::write(&spec, format!("[task]\n{line}\n")).unwrap();
         fails(
-            &[
-                "catalog",
-                "build",
-                "--spec",
-                &spec,
-                "-o",
-                &at(&folder, "no.db"),
-            ],
+            &format!("catalog build --spec {spec} -o {}", at(&folder, "no.db")),
             says,
         );
     }

@@ -218,14 +218,10 @@ fn structure_under_every_drive() {
 fn charts_and_stability_go_to_folders() {
     let folder = tempfile::tempdir().unwrap();
     let charts = folder.path().join("charts");
-    out(&[
-        "statics",
-        "parallel-shears",
-        "--stroke",
-        "0:6.28:8",
-        "--svg",
-        charts.to_str().unwrap(),
-    ]);
+    out(&format!(
+        "statics parallel-shears --stroke 0:6.28:8 --svg {}",
+        charts.display()
+    ));
     for name in [
         "group-4-6-7-10.svg",
         "group-5-8-9-11.csv",
@@ -270,14 +266,10 @@ fn a_dead_point_ends_the_cycle_with_exit_code_1() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rocker.toml");
     fs::write(&path, text).unwrap();
-    let o = ozols(&[
-        "statics",
-        path.to_str().unwrap(),
-        "--stroke",
-        "0:180deg:90",
-        "--format",
-        "json",
-    ])
+    let o = ozols(&format!(
+        "statics {} --stroke 0:180deg:90 --format json",
+        path.display()
+    ))
     .output()
     .unwrap();
     assert_eq!(o.status.code(), Some(1));

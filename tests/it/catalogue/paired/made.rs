@@ -82,23 +82,9 @@ fn hinges_are_on_one_pin_with_their_images() {
 fn flat_faces_are_made_where_they_are_asked() {
     let folder = tempdir().unwrap();
     let file = at(&folder, "flat.db");
-    ok(&[
-        "catalog",
-        "build",
-        "--pairs",
-        "slide,slot",
-        "--flat-faces",
-        "with",
-        "--symmetry",
-        "mirror",
-        "--links",
-        "4",
-        "--ideas",
-        "0",
-        "--quiet",
-        "-o",
-        &file,
-    ]);
+    ok(&format!(
+        "catalog build --pairs slide,slot --flat-faces with --symmetry mirror --links 4 --ideas 0 --quiet -o {file}"
+    ));
     let sql = "SELECT a.redundant AS flat, b.redundant AS slotted, p.slots AS slots FROM layouts a JOIN structures s ON s.id = a.structure \
          JOIN structures t ON t.name || ' flat' = s.name JOIN layouts b ON b.structure = t.id JOIN pairs p ON p.structure = t.id";
     let all = rows(&file, sql);
