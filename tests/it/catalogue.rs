@@ -1,5 +1,6 @@
 //! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
 
+use crate::common::*;
 mod by_hand;
 mod carried_on;
 mod chains;
@@ -25,15 +26,12 @@ mod tasks;
 mod three_jaws;
 mod workload;
 
-use itertools::Itertools;
 use ozols::catalog::row::{Laid, StructureRow, row};
 use ozols::catalog::spec::Spec;
 use ozols::chains::enumerate::chains;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry};
 use ozols::file::schema::{Coordinate, DriveWord};
-use ozols::geom::vector::real;
-use ozols::model::{joint_type::JointType, mechanism::Mechanism};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::{Layout, NoLayout};
 use ozols::synthesis::listed::hinged_structures;
@@ -43,7 +41,6 @@ use ozols::synthesis::structure::{Form, Structure};
 use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
 use ozols::{Request, analyze};
-use std::collections::BTreeMap;
 use std::ops::Deref;
 
 /// A layout with only hinges, as pins at exact places.

@@ -3,11 +3,13 @@
 use assert_cmd::Command;
 pub(crate) use itertools::Itertools;
 pub(crate) use num_bigint::BigUint;
+pub(crate) use ozols::accuracy::change::Noise;
 pub(crate) use ozols::builtin;
-use ozols::closure::Closure;
+pub(crate) use ozols::closure::Closure;
 pub(crate) use ozols::file::text::mechanism_from_str;
-use ozols::geom::exact::ExactField;
+pub(crate) use ozols::geom::exact::ExactField;
 pub(crate) use ozols::geom::expr::Expr;
+pub(crate) use ozols::geom::vector::real;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 pub(crate) use ozols::model::joint_type::{Freedom, JointType};
@@ -15,16 +17,17 @@ pub(crate) use ozols::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role,
 pub(crate) use ozols::redundancy::analysis::{Method, analyse, exact_field};
 pub(crate) use ozols::search::Search;
 pub(crate) use ozols::search::question::conditions::Conditions;
-pub(crate) use serde_json::Value;
+pub(crate) use serde_json::{Value, json};
 pub(crate) use std::collections::{BTreeMap, BTreeSet};
+pub(crate) use std::f64::consts::{PI, TAU};
 pub(crate) use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
 pub(crate) use std::path::Path;
-use std::path::PathBuf;
-use std::process::Output;
-use std::sync::OnceLock;
-use tempfile::TempDir;
+pub(crate) use std::path::PathBuf;
+pub(crate) use std::process::Output;
+pub(crate) use std::sync::OnceLock;
+pub(crate) use tempfile::{TempDir, tempdir};
 
 /// A command line: its words, or a text with blanks between them.
 pub(crate) trait Line {
@@ -260,6 +263,24 @@ pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {
     let (code, said, told) = ran(args);
     assert_eq!(code, Some(0), "{:?}: {told}", args.words());
     (said, told)
+}
+
+/// Standard output of a command that succeeds.
+#[track_caller]
+pub(crate) fn ok<L: Line + ?Sized>(args: &L) -> String {
+    done(args).0
+}
+
+/// Asserts that a command is refused with exit code 2 and these words.
+#[track_caller]
+pub(crate) fn fails<L: Line + ?Sized>(args: &L, says: &str) {
+    let (code, _, told) = ran(args);
+    assert_eq!(
+        (code, told.contains(says)),
+        (Some(2), true),
+        "{:?}: no {says:?} in {told}",
+        args.words()
+    );
 }
 
 /// Exit code, standard output and standard error of a command on a file with this text.

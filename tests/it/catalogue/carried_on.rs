@@ -1,10 +1,10 @@
 //! The same rows whatever the threads, the shards and the interruptions.
 
-use super::command::{at, ok, small, whole};
+use super::command::{at, small, whole};
+use crate::common::*;
 use assert_cmd::cargo::CommandCargoExt as _;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-use tempfile::tempdir;
 
 #[test]
 fn a_catalogue_is_the_same_whatever_the_threads_and_the_shards() {

@@ -1,8 +1,7 @@
 //! Kinematic chains and the grippers made of them, against the counts of independent programs (two generators, two filters,
 //! two canonical forms; OEIS A233288) and against a slow twin that tries every graph.
 
-use crate::common::{built_in, json, ozols, text};
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::census::{Census, Counted, DriveKind, census};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::{chains, count_chains};
@@ -10,9 +9,7 @@ use ozols::chains::graph6::{self, Graph6Error};
 use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::{Roles, Subject};
 use ozols::chains::{Input, Symmetry};
-use ozols::model::mechanism::{Role, StateId};
 use proptest::prelude::*;
-use std::collections::BTreeSet;
 
 #[test]
 fn as_many_chains_as_are_known() {

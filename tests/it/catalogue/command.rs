@@ -1,31 +1,30 @@
 //! `ozols catalog build`, `query`, `show`, `export`, `merge` and `page` as commands.
 
-use crate::common::{ozols, run, text};
+use crate::common::*;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
-use serde_json::Value;
-use std::path::Path;
-use tempfile::{TempDir, tempdir};
 
 pub(super) fn at(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).display().to_string()
 }
 
-pub(super) fn ok(args: &[&str]) -> String {
-    let o = run(args);
-    assert_eq!(o.status.code(), Some(0), "{args:?}: {}", text(&o.stderr));
-    text(&o.stdout)
+/// The rows of a question to a catalogue.
+pub(super) fn rows(file: &str, sql: &str) -> Vec<Value> {
+    json(&["catalog", "query", file, sql, "--format", "json"])
+        .list()
+        .clone()
 }
 
-pub(super) fn fails(args: &[&str], says: &str) {
-    let o = run(args);
-    let told = text(&o.stderr);
-    assert_eq!(
-        (o.status.code(), told.contains(says)),
-        (Some(2), true),
-        "{args:?}: {told}"
-    );
+/// The same as CSV, without the head.
+pub(super) fn lines(file: &str, sql: &str) -> Vec<String> {
+    let csv = ok(&["catalog", "query", file, sql, "--format", "csv"]);
+    csv.lines().skip(1).map(str::to_owned).collect()
+}
+
+/// The free state of a file as it is analysed.
+pub(super) fn free_state(file: &str) -> Value {
+    json(&["analyze", file, "--format", "json"])["states"][0].clone()
 }
 
 /// What the script of a page is given.
@@ -115,17 +114,16 @@ fn it_is_queried_shown_exported_and_drawn() {
         shown.contains("W = 1, σ = 6; finite mobility 1, proven"),
         "{shown}"
     );
-    let json: serde_json::Value =
-        serde_json::from_str(&ok(&["catalog", "show", &db, id, "--json"])).unwrap();
+    let json: Value = serde_json::from_str(&ok(&["catalog", "show", &db, id, "--json"])).unwrap();
     assert_eq!(json["ideas"].as_array().unwrap().len(), 3);
     assert_eq!(json["layout"]["mobility"], 1);
     let svg = at(&folder, "g.svg");
     ok(&["catalog", "show", &db, id, "--svg", &svg]);
-    let drawn = std::fs::read_to_string(&svg).unwrap();
+    let drawn = fs::read_to_string(&svg).unwrap();
     assert!(drawn.starts_with("<svg") && drawn.contains("tip-a") && drawn.contains("tip-b"));
     let toml = at(&folder, "g.toml");
     ok(&["catalog", "export", &db, id, "-o", &toml]);
-    let analysed: serde_json::Value =
+    let analysed: Value =
         serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
     assert_eq!(
         analysed["states"][0]["redundant"],
@@ -134,8 +132,7 @@ fn it_is_queried_shown_exported_and_drawn() {
     // Every idea carried out is determinate, and of mobility 1.
     for k in ["1", "2", "3"] {
         ok(&["catalog", "export", &db, id, "--idea", k, "-o", &toml]);
-        let v: serde_json::Value =
-            serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
+        let v: Value = serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
         let free = &v["states"][0];
         assert_eq!(
             (free["mobility"].as_u64(), free["redundant"].as_u64()),
@@ -145,7 +142,7 @@ fn it_is_queried_shown_exported_and_drawn() {
     }
     let page = at(&folder, "g.html");
     ok(&["catalog", "page", &db, "-o", &page]);
-    let html = std::fs::read_to_string(&page).unwrap();
+    let html = fs::read_to_string(&page).unwrap();
     assert!(html.contains("Content-Security-Policy") && !html.contains("http://localhost"));
     let cards = cards_of(&html);
     let card = cards.iter().find(|c| c["id"] == *id).unwrap();
@@ -219,7 +216,7 @@ fn what_cannot_be_done_is_said() {
     );
     fails(&["catalog", "query", &db, "DELETE FROM ideas"], "readonly");
     let other = at(&folder, "other.txt");
-    std::fs::write(
+    fs::write(
         &other,
         "This is no database, though it is long enough to be looked at as one.".repeat(20),
     )
@@ -230,7 +227,7 @@ fn what_cannot_be_done_is_said() {
         "is not a catalogue",
     );
     assert!(
-        std::fs::read_to_string(&other)
+        fs::read_to_string(&other)
             .unwrap()
             .starts_with("This is no database")
     );
@@ -240,12 +237,12 @@ fn what_cannot_be_done_is_said() {
     );
     assert!(!Path::new(&at(&folder, "missing.db")).exists());
     let spec = at(&folder, "spec.toml");
-    std::fs::write(&spec, "links = \"4\"\ncolour = \"red\"\n").unwrap();
+    fs::write(&spec, "links = \"4\"\ncolour = \"red\"\n").unwrap();
     fails(
         &format!("catalog build --spec {spec} -o {}", at(&folder, "s.db")),
         "colour",
     );
-    std::fs::write(&spec, "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n").unwrap();
+    fs::write(&spec, "links = \"4\"\nideas = 2\ninputs = [\"slide\"]\n").unwrap();
     let told = ozols(&format!(
         "catalog build --spec {spec} -o {} --quiet",
         at(&folder, "s.db")
@@ -314,11 +311,11 @@ fn drawn_mechanisms_stand_beside_the_structures() {
         "catalog export {merged} gripper-10 --idea 1 -o {redesign}"
     ));
     let analysed = ok(&["analyze", &redesign, "--format", "json"]);
-    let analysed: serde_json::Value = serde_json::from_str(&analysed).unwrap();
+    let analysed: Value = serde_json::from_str(&analysed).unwrap();
     assert_eq!(analysed["states"][0]["redundant"], 0, "{analysed}");
     let page = at(&folder, "page.html");
     ok(&["catalog", "page", &merged, "-o", &page]);
-    let cards = cards_of(&std::fs::read_to_string(&page).unwrap());
+    let cards = cards_of(&fs::read_to_string(&page).unwrap());
     assert!(cards.iter().any(|c| c["name"] == "tongs"));
 }
 
@@ -344,8 +341,7 @@ fn unloading_joints_are_on_the_menu() {
     let (id, place) = with.lines().nth(1).unwrap().split_once(',').unwrap();
     let toml = at(&folder, "v.toml");
     ok(&["catalog", "export", &file, id, "--idea", place, "-o", &toml]);
-    let said: serde_json::Value =
-        serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
+    let said: Value = serde_json::from_str(&ok(&["analyze", &toml, "--format", "json"])).unwrap();
     let free = &said["states"][0];
     assert_eq!(
         (&free["mobility"], &free["redundant"]),

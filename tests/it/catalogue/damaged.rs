@@ -1,11 +1,9 @@
 //! Catalogues that are damaged: bytes changed, pages lost. SQLite's own check says which of them no command may take.
 
 use super::carried_on::scattered;
-use super::command::{at, ok};
-use crate::common::{fresh, run, text};
+use super::command::at;
+use crate::common::*;
 use rusqlite::Connection;
-use std::fs;
-use tempfile::tempdir;
 
 /// Bytes of a page of a catalogue.
 const PAGE: usize = 8192;

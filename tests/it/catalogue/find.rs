@@ -1,11 +1,8 @@
 //! `ozols catalog find`: the structure of a drawn mechanism, what it is known as, and where a catalogue has it.
 
-use crate::common::{built_in, json, ozols, text};
+use crate::common::*;
 use ozols::chains::classics::classics;
 use ozols::synthesis::recognize::{NoStructure, recognize};
-use serde_json::Value;
-use std::fs;
-use std::path::Path;
 
 /// Mechanisms of known schemes, as far as they are built in.
 #[test]

@@ -4,13 +4,10 @@
 //! many places, all that there are and further ones in greater catalogues; a few of each command by default.
 
 use super::carried_on::scattered;
-use super::command::{at, ok, small};
-use crate::common::text;
+use super::command::{at, small};
+use crate::common::*;
 use ozols::catalog::store::Store;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use tempfile::{TempDir, tempdir};
+use std::process::{Command, Stdio};
 
 /// The structures of four links, each a transaction.
 fn tiny<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {

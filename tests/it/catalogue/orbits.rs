@@ -1,21 +1,15 @@
 //! Counts up to the symmetry of a layout, against a list of all variants whose images are found from the places of the joints.
 
-use super::command::{at, ok};
+use super::command::at;
 use super::three_jaws::third;
 use super::{each_of, form, plain};
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::catalog::row::row;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
-use ozols::geom::vector::real;
-use ozols::model::mechanism::Mechanism;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::answer::orbit_counts::orbit_counts;
 use ozols::search::answer::search_counts::SearchCounts;
-use ozols::search::question::conditions::{Conditions, Symmetry as Asked};
-use std::collections::{BTreeMap, BTreeSet};
-use tempfile::tempdir;
+use ozols::search::question::conditions::Symmetry as Asked;
 
 /// For each joint the one that stands where the symmetry carries it.
 fn images(m: &Mechanism, carry: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<usize> {
@@ -163,7 +157,7 @@ fn a_file_says_what_a_turn_carries_round() {
         ];
         let more = Some(more).filter(|m| !m.is_empty());
         let found = ok(&args.into_iter().chain(more).collect::<Vec<_>>());
-        let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+        let found: Value = serde_json::from_str(&found).unwrap();
         found["admissible"].as_str().unwrap().to_owned()
     };
     assert_eq!(
@@ -173,14 +167,14 @@ fn a_file_says_what_a_turn_carries_round() {
     let shown = ok(&["catalog", "show", &db, row[0]]);
     assert!(shown.contains("up to half-turn images"), "{shown}");
     // A file that groups wrong joints is told so, and one that groups them wrongly.
-    let text = std::fs::read_to_string(&file).unwrap();
+    let text = fs::read_to_string(&file).unwrap();
     let begin = text.find("turn = [").unwrap();
     let end = begin + text[begin..].find("\n\n").unwrap();
     let names: Vec<&str> = text[begin..end].split('"').skip(1).step_by(2).collect();
     let with = |turn: &str| {
         let wrong = at(&folder, "wrong.toml");
-        std::fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
-        let o = crate::common::run(&["search", &wrong, "--one-per-orbit"]);
+        fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
+        let o = run(&["search", &wrong, "--one-per-orbit"]);
         (o.status.code(), crate::common::text(&o.stderr))
     };
     let (code, told) = with(&format!("turn = [[\"{}\", \"{}\"]]", names[0], names[2]));
@@ -214,7 +208,7 @@ fn orbits_are_those_of_necklaces() {
                 let turned = |k: usize| [&beads[k..], &beads[..k]].concat();
                 (0..order).map(turned).min()
             };
-            let necklaces: std::collections::BTreeSet<_> = (0..all).map(least).collect();
+            let necklaces: BTreeSet<_> = (0..all).map(least).collect();
             let kept = (0..all).filter(|&n| beads(n).all(|b| Some(b) == beads(n).next()));
             let found = orbits(&all.into(), &kept.count().into(), order);
             assert_eq!(found, necklaces.len().into(), "{order} {colours}");

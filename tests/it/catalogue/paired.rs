@@ -1,6 +1,7 @@
 //! Layouts with slides, gears and slots, against the statics of their own files over the whole stroke, which solve contours of
 //! joints in space.
 
+use crate::common::*;
 mod axial;
 mod by_hand;
 mod flat;
@@ -11,16 +12,11 @@ mod three_generic;
 mod twin_figures;
 
 use super::carried_on::scattered;
-use super::command::{at, fails, ok, whole};
+use super::command::{at, whole};
 use super::pairs::classics::schemes;
 use super::pairs::menu;
-use crate::common::{run, text};
 use ozols::chains::structure::PairStructure;
 use ozols::synthesis::listed::symmetric_structures;
-use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::OnceLock;
-use tempfile::{TempDir, tempdir};
 
 /// A catalogue, built once.
 type Built = OnceLock<(TempDir, String)>;
@@ -91,7 +87,7 @@ fn are_images(file: &str) {
             row["determinate"].to_string(),
             "{row}"
         );
-        let m = ozols::from_toml(&std::fs::read_to_string(&toml).unwrap()).unwrap();
+        let m = ozols::from_toml(&fs::read_to_string(&toml).unwrap()).unwrap();
         assert_eq!(m.search.order(), 3);
     }
 }
@@ -367,11 +363,7 @@ fn what_is_not_laid_out_is_refused() {
             .chain(["-o", &file])
             .collect();
         fails(&all, says);
-        assert!(
-            !std::path::Path::new(&file).exists(),
-            "{words:?}",
-            words = all
-        );
+        assert!(!Path::new(&file).exists(), "{words:?}", words = all);
     };
     build("--pairs cam", "\"cam\" is none of slide, gear, slot");
     build("--pairs slide --links 6..9", "8 links at most");

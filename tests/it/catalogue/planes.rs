@@ -3,7 +3,7 @@
 use super::dense_twin::{Pose, Twin, carrier, place};
 use super::stroke::poses;
 use super::{Drawn, each, each_of, form, layout};
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::stroke::planes::Stacking;

@@ -1,16 +1,12 @@
 //! Rows of a catalogue against the plain commands, and its fronts against a slow look at all.
 
 use super::carried_on::scattered;
-use super::command::{at, ok};
-use itertools::Itertools;
+use super::command::at;
+use crate::common::*;
 use ozols::Request;
-use ozols::geom::vector::real;
 use ozols::model::ranking::ClearanceSum;
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
-use std::collections::BTreeSet;
-use std::sync::OnceLock;
-use tempfile::{TempDir, tempdir};
 
 /// All structures of four and six links, made once for the tests that look at them.
 pub(super) fn all_of_six() -> &'static str {
@@ -32,7 +28,7 @@ fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
     let folder = tempdir().unwrap();
     let sql = "SELECT id, mobility, redundant, finite, determinate, determinate_w1, best_cost FROM structures JOIN layouts \
                ON structure = id ORDER BY id";
-    let rows: serde_json::Value =
+    let rows: Value =
         serde_json::from_str(&ok(&["catalog", "query", file, sql, "--format", "json"])).unwrap();
     let rows = rows.as_array().unwrap();
     let count = u64::try_from(rows.len()).unwrap();
@@ -41,7 +37,7 @@ fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
         let id = row["id"].as_str().unwrap();
         let toml = at(&folder, &format!("{id}.toml"));
         ok(&["catalog", "export", file, id, "-o", &toml]);
-        let said = |args: &[&str]| -> serde_json::Value {
+        let said = |args: &[&str]| -> Value {
             serde_json::from_str(&ok(&[args, &["--format", "json"]].concat())).unwrap()
         };
         let free = &said(&["analyze", &toml])["states"][0];
@@ -133,7 +129,7 @@ fn the_fronts_are_what_no_other_beats() {
     assert!(best.len() < ideas.len());
 }
 
-fn told(sql: &str) -> Vec<serde_json::Value> {
+fn told(sql: &str) -> Vec<Value> {
     let said = ok(&["catalog", "query", all_of_six(), sql, "--format", "json"]);
     serde_json::from_str(&said).unwrap()
 }

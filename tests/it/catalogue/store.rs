@@ -1,12 +1,9 @@
 //! The file of a catalogue: versions, parts that are missing, foreign files, and what a question may not do.
 
-use super::command::{at, fails, ok, whole};
-use crate::common::{ozols, run, text};
+use super::command::{at, whole};
+use crate::common::*;
 use rusqlite::Connection;
-use std::fs;
-use std::path::Path;
 use std::process::Command;
-use tempfile::{TempDir, tempdir};
 
 /// A catalogue of two structures.
 fn tiny(folder: &TempDir, name: &str, more: &[&str]) -> String {

@@ -1,12 +1,8 @@
 //! The task of a catalogue as a file and as options, the filters, and what rows say of it.
 
-use super::command::{at, fails, ok};
+use super::command::at;
 use super::rows::all_of_six;
-use crate::common::{json, run, text};
-use ozols::geom::vector::real;
-use serde_json::Value;
-use std::collections::BTreeSet;
-use tempfile::tempdir;
+use crate::common::*;
 
 fn rows(file: &str, question: &[&str]) -> Vec<Value> {
     let words = ["catalog", "query", file, "--format", "json"];
@@ -260,7 +256,7 @@ fn a_task_is_a_table_and_options() {
         at(&folder, "2.db"),
     );
     let text = "links = \"4\"\nideas = 1\n[task]\nnarrowest = 10\nwidest = 40\ngrip = \"inside\"\nmotion = \"swinging\"\nforce_ratio = 2\nroom = [200, 150]\n";
-    std::fs::write(&spec, text).unwrap();
+    fs::write(&spec, text).unwrap();
     ok(&["catalog", "build", "--spec", &spec, "--quiet", "-o", &one]);
     let words = "catalog build --links 4 --ideas 1 --widths 10..40 --grip inside --motion swinging --force-ratio 2 --room 200x150 --quiet -o";
     let words: Vec<&str> = words.split(' ').chain([two.as_str()]).collect();
@@ -279,7 +275,7 @@ fn a_task_is_a_table_and_options() {
         ("colour = 1", "colour"),
         ("room = [200, 150, 100]", "3 values; write 2"),
     ] {
-        std::fs::write(&spec, format!("[task]\n{line}\n")).unwrap();
+        fs::write(&spec, format!("[task]\n{line}\n")).unwrap();
         fails(
             &format!("catalog build --spec {spec} -o {}", at(&folder, "no.db")),
             says,

@@ -2,18 +2,15 @@
 
 use super::motions::bracketed;
 use super::{Drawn, each_of, form, layout, moved, plain};
-use crate::common::run;
-use itertools::Itertools;
+use crate::common::*;
 use ozols::catalog::row::row;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry};
-use ozols::geom::vector::real;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
-use std::collections::BTreeMap;
 
 pub(super) fn third([x, y]: [f64; 2]) -> [f64; 2] {
-    let (sine, cosine) = (2.0 * std::f64::consts::PI / 3.0).sin_cos();
+    let (sine, cosine) = (2.0 * PI / 3.0).sin_cos();
     [cosine * x - sine * y, sine * x + cosine * y]
 }
 
@@ -214,7 +211,7 @@ fn generic_structures_of_three_jaws_close_on_the_part() {
 
 #[test]
 fn the_command_takes_three_jaws() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let db = folder.path().join("three.db").display().to_string();
     let said = |args: &[&str], code: i32| {
         let o = run(&[&["catalog"], args].concat());
@@ -250,7 +247,7 @@ fn the_command_takes_three_jaws() {
     let toml = folder.path().join("g.toml").display().to_string();
     said(&["export", &db, &id, "--idea", "1", "-o", &toml], 0);
     let analysed = run(&["analyze", &toml, "--format", "json"]);
-    let analysed: serde_json::Value = serde_json::from_slice(&analysed.stdout).unwrap();
+    let analysed: Value = serde_json::from_slice(&analysed.stdout).unwrap();
     assert_eq!(
         (
             &analysed["states"][0]["mobility"],
@@ -260,7 +257,7 @@ fn the_command_takes_three_jaws() {
     );
     let page = folder.path().join("g.html").display().to_string();
     said(&["page", &db, "-o", &page], 0);
-    let html = std::fs::read_to_string(&page).unwrap();
+    let html = fs::read_to_string(&page).unwrap();
     let cards = super::command::cards_of(&html);
     let card = cards.iter().find(|c| c["id"] == *id).unwrap();
     assert!(card["tip_c_dx"].is_number(), "{card}");

@@ -1,16 +1,14 @@
 //! The workload of a catalogue: what the drive must do for it, by hand and by virtual work.
 
-use super::command::{at, ok};
+use super::command::at;
 use super::{each, form, layout, moved_points};
-use crate::common::{json, run, text};
+use crate::common::*;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
 use ozols::file::write;
-use ozols::geom::vector::real;
 use ozols::synthesis::mechanism::mechanism_file;
 use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
-use tempfile::tempdir;
 
 /// What the drive of a file bears, in N or N·m, by the equilibrium of all links.
 fn effort(file: &str) -> f64 {
@@ -43,7 +41,7 @@ fn the_force_ratio_is_that_of_the_lever_arms() {
         at(&folder, "g.db"),
         at(&folder, "m.toml"),
     );
-    std::fs::write(&spec, SPEC).unwrap();
+    fs::write(&spec, SPEC).unwrap();
     ok(&["catalog", "build", "--spec", &spec, "--quiet", "-o", &db]);
     ok(&[
         "catalog",
@@ -75,7 +73,7 @@ fn the_force_ratio_is_that_of_the_lever_arms() {
     // The file keeps what it was made for, and another workload is another catalogue.
     let sql = "SELECT value FROM meta WHERE key = 'spec'";
     assert!(ok(&["catalog", "query", &db, sql]).contains("closing = 250"));
-    std::fs::write(&spec, SPEC.replace("250", "251")).unwrap();
+    fs::write(&spec, SPEC.replace("250", "251")).unwrap();
     let again = run(&["catalog", "build", "--spec", &spec, "-o", &db]);
     assert_eq!(again.status.code(), Some(2));
     assert!(text(&again.stderr).contains("closing"));
@@ -87,7 +85,7 @@ fn peaks_grow_with_the_closing_force() {
     let folder = tempdir().unwrap();
     let spec = at(&folder, "spec.toml");
     let peaks = |closing: &str| -> Vec<f64> {
-        std::fs::write(&spec, SPEC.replace("250", closing)).unwrap();
+        fs::write(&spec, SPEC.replace("250", closing)).unwrap();
         let db = at(&folder, &format!("{closing}.db"));
         ok(&["catalog", "build", "--spec", &spec, "--quiet", "-o", &db]);
         let sql = "SELECT peak_force FROM ideas ORDER BY structure, place";
@@ -126,7 +124,7 @@ fn the_drive_does_the_work_of_part_and_links() {
         let l = layout(&s, &Limits::default(), 1).unwrap();
         let file = mechanism_file(&s, &l, &Spec::default().menu().unwrap(), &workload);
         let path = at(&folder, &format!("{n}.toml"));
-        std::fs::write(&path, write::toml(&file, &[]).unwrap()).unwrap();
+        fs::write(&path, write::toml(&file, &[]).unwrap()).unwrap();
         // Points that forces act at, with the force in the plane.
         let mut acting: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
         for link in (0..s.structure.chain.links()).filter(|&k| k != s.structure.roles.frame) {
@@ -187,7 +185,7 @@ fn workloads_that_are_none_are_refused() {
         ("gravity = [0, 1]", "line 3"),
         ("weight = 1", "weight"),
     ] {
-        std::fs::write(&spec, format!("links = \"4\"\n[workload]\n{text_of}\n")).unwrap();
+        fs::write(&spec, format!("links = \"4\"\n[workload]\n{text_of}\n")).unwrap();
         let db = at(&folder, "none.db");
         let o = run(&["catalog", "build", "--spec", &spec, "-o", &db]);
         let told = text(&o.stderr);

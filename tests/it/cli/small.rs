@@ -6,7 +6,7 @@ use crate::common::*;
 /// ESC colours a terminal and worse, CR hides what came before, NUL ends strings of other programs.
 #[test]
 fn control_characters_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let file = folder.path().join("x.toml");
     let shown = out(&["show", "four-bar"]);
     for (from, to, key) in [
@@ -95,7 +95,7 @@ fn every_row_of_csv_has_as_many_cells_as_the_head() {
 #[test]
 fn a_written_file_has_the_mode_it_had_or_the_umask() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let mode = |name: &str| {
         let path = folder.path().join(name);
         fs::metadata(path).unwrap().permissions().mode() & 0o777
@@ -123,7 +123,7 @@ fn a_written_file_has_the_mode_it_had_or_the_umask() {
 
 #[test]
 fn a_dash_is_standard_output() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for args in [
         &["search", "four-bar", "--format", "csv"][..],
         &["analyze", "four-bar"],
@@ -149,7 +149,7 @@ fn a_counting_method_has_no_certificate() {
 #[cfg(unix)]
 #[test]
 fn an_included_pipe_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let made = std::process::Command::new("mkfifo")
         .arg(folder.path().join("pipe"))
         .status();

@@ -1,5 +1,6 @@
 //! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
 
+use crate::common::*;
 mod figures;
 pub(crate) mod less;
 mod random;
@@ -9,7 +10,6 @@ use self::figures::figures;
 pub(crate) use self::random::random;
 use self::random::random_coupled;
 use self::rational::{Q, allowed_twists, length, twists};
-use crate::common::*;
 use ozols::model::joint_type::CoupledFreedom;
 use ozols::model::mechanism::Frame;
 use ozols::redundancy::stress::{SelfStress, StressVerdict};
@@ -127,8 +127,7 @@ pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>
                 Some([(a, -c.ratio.as_rational()? * x), (b, y)])
             })
             .collect();
-        let used: std::collections::BTreeSet<LinkId> =
-            joints.iter().flat_map(|(l, _)| *l).collect();
+        let used: BTreeSet<LinkId> = joints.iter().flat_map(|(l, _)| *l).collect();
         let contours = joints.len() + 1 - used.len();
         let searched = if state == StateId::FREE {
             &[][..]

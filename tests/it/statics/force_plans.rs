@@ -1,10 +1,6 @@
 //! What the kinetostatics of the shears goes through: accelerations, inertia forces, tangential reactions, force plans.
 
-use crate::common::{built_in, json, near, out};
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::fs;
-
+use crate::common::*;
 fn number(v: &Value) -> f64 {
     v.as_f64().unwrap()
 }
@@ -119,7 +115,7 @@ fn visible(svg: &str, name: &str) -> bool {
 /// Every plan closes, and those of the δ-point method add up as those of the full solve do.
 #[test]
 fn force_plans_close_beside_those_of_the_full_solve() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("plans");
     out(&format!(
         "statics parallel-shears --stroke 0:360deg:36 --svg {}",

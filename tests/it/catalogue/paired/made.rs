@@ -4,11 +4,7 @@ use super::super::carried_on::scattered;
 use super::{
     Built, LAID, at, built, first_of, known, known_three, number, ok, pulls_as_its_file_says, rows,
 };
-use crate::common::data;
-use ozols::geom::vector::real;
-use std::collections::BTreeSet;
-use std::sync::OnceLock;
-use tempfile::tempdir;
+use crate::common::*;
 
 /// Every structure of four links with pairs, laid out freely.
 fn free() -> &'static str {
@@ -140,7 +136,7 @@ fn exported(folder: &tempfile::TempDir, scheme: &str, more: &[&str]) -> String {
 fn a_screw_loses_by_its_thread_and_guides() {
     let folder = tempdir().unwrap();
     let toml = exported(&folder, "screw-two-nuts", &[]);
-    let m = ozols::from_toml(&std::fs::read_to_string(toml).unwrap()).unwrap();
+    let m = ozols::from_toml(&fs::read_to_string(toml).unwrap()).unwrap();
     let told = format!(
         "SELECT * FROM grippers WHERE id = '{}'",
         first_of("screw-two-nuts")
@@ -168,7 +164,7 @@ fn a_screw_loses_by_its_thread_and_guides() {
 fn what_looks_like_a_screw_is_told_from_one() {
     let folder = tempdir().unwrap();
     let toml = exported(&folder, "screw-two-nuts", &[]);
-    let text = std::fs::read_to_string(&toml).unwrap();
+    let text = fs::read_to_string(&toml).unwrap();
     let other = at(&folder, "other.toml");
     let with = |change: &dyn Fn(&mut toml::Table)| {
         let mut file: toml::Table = text.parse().unwrap();
@@ -180,8 +176,8 @@ fn what_looks_like_a_screw_is_told_from_one() {
             }
         }
         file.remove("search");
-        std::fs::write(&other, file.to_string()).unwrap();
-        crate::common::run(&["catalog", "find", &other])
+        fs::write(&other, file.to_string()).unwrap();
+        run(&["catalog", "find", &other])
     };
     let thread = |joint: &toml::Table| joint["type"].as_str() == Some("helical");
     assert_eq!(with(&|_| ()).status.code(), Some(0));
@@ -240,7 +236,7 @@ fn redesigns_are_found_in_their_plane() {
                 "-o",
                 &toml,
             ];
-            if crate::common::run(&words).status.code() == Some(0) {
+            if run(&words).status.code() == Some(0) {
                 let found = ok(&["catalog", "find", &toml, "--in", known()]);
                 assert!(found.contains(&id), "{scheme} {idea}: {found}");
             }
@@ -283,10 +279,10 @@ fn what_leads_to_nothing_is_refused() {
         ("--generic-pairs", "--pairs"),
     ] {
         let words: Vec<&str> = words.split(' ').collect();
-        super::super::command::fails(
+        fails(
             &[&["catalog", "build", "-o", &file], &words[..]].concat(),
             says,
         );
-        assert!(!std::path::Path::new(&file).exists(), "{words:?}");
+        assert!(!Path::new(&file).exists(), "{words:?}");
     }
 }

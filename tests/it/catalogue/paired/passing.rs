@@ -1,9 +1,8 @@
 //! Links that cross and pass each other in planes.
 
-use super::super::command::{at, ok};
+use super::super::command::at;
 use super::rows;
-use serde_json::Value;
-use tempfile::tempdir;
+use crate::common::*;
 
 /// Links may cross as often as they like where there are planes in which they pass each other over the whole stroke, and six times
 /// where there are none.

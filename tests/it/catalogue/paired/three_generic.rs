@@ -1,20 +1,14 @@
 //! Three jaws with slides, gears and slots, laid out without symmetry.
 
+use crate::common::*;
 mod every_way;
 
 use super::super::carried_on::scattered;
-use super::super::command::{at, cards_of, fails, ok, whole};
+use super::super::command::{at, cards_of, whole};
 use super::{Built, LAID, built, pulls_as_its_file_says, rows};
-use crate::common::json;
 use ozols::chains::sharing::Menu;
 use ozols::chains::{PairKind, structure::PairStructure};
-use ozols::geom::vector::real;
-use ozols::model::joint_type::Freedom;
 use ozols::synthesis::listed::generic_structures;
-use std::collections::BTreeSet;
-use std::f64::consts::TAU;
-use std::sync::OnceLock;
-use tempfile::tempdir;
 
 const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs --quiet -o";
 
@@ -170,7 +164,7 @@ fn it_is_queried_shown_drawn_and_merged() {
     assert!(shown.contains("(2 slides)"), "{shown}");
     let page = at(&folder, "page.html");
     ok(&["catalog", "page", &one, "-o", &page]);
-    let html = std::fs::read_to_string(&page).unwrap();
+    let html = fs::read_to_string(&page).unwrap();
     let cards = cards_of(&html);
     let card = cards.iter().find(|c| c["id"] == *id).unwrap();
     assert!(card["tip_c_dx"].is_number(), "{card}");
@@ -206,7 +200,7 @@ fn what_is_not_laid_out_is_refused_with_a_way_out() {
             .chain(words.split(' '))
             .collect();
         fails(&words, says);
-        assert!(!std::path::Path::new(&file).exists(), "{words:?}");
+        assert!(!Path::new(&file).exists(), "{words:?}");
     }
     let says = "add it (--symmetry generic), or leave generic_pairs (--generic-pairs) out";
     let words = "catalog build --jaws 3 --symmetry threefold --generic-pairs --pairs slide -o";

@@ -1,12 +1,12 @@
 //! Efficiency, transmission, joint forces and room of layouts with slides, gears and slots, worked out anew from their files: all links
 //! moved, and all forces from the equilibrium of every link, teeth's among them. None of it is code that lays them out.
 
+use crate::common::*;
 mod filed;
 
 use super::super::{dense_twin::place, gauss};
 use super::{known, number, rows, some, three_generic};
 use filed::{FiledJoint, Gripper, Holds, Point, dot, length, quarter, sub, times};
-use serde_json::Value;
 use std::array::from_fn;
 
 /// The friction of a task that says nothing of it: coefficient, and in mm the radius of pins and the length of guides.

@@ -1,8 +1,6 @@
 //! `ozols catalog count --pairs` as people and programs read it.
 
-use crate::common::{json, out, ozols, text};
-use itertools::Itertools;
-
+use crate::common::*;
 fn count(more: &[&str]) -> String {
     out(&[&["catalog", "count"], more].concat())
 }

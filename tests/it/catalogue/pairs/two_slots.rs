@@ -2,11 +2,10 @@
 //! what they are: two lines of action.
 
 use super::super::carried_on::scattered;
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::PairKind;
 use ozols::chains::census::{Kinds, pair_census};
 use ozols::chains::sharing::Menu;
-use std::collections::{BTreeMap, BTreeSet};
 
 const P: i64 = (1 << 31) - 1;
 

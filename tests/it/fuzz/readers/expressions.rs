@@ -1,7 +1,6 @@
 //! Expressions for coordinates, such as `sqrt(3)/2` and `cos(36deg)`.
 
-use ozols::geom::expr::Expr;
-
+use crate::common::*;
 pub(crate) const TOKENS: [&str; 28] = [
     "0", "1", "2", "7", "360", "0.5", "1e3", "1e-9", ".", "+", "-", "*", "/", "^", "(", ")",
     "sqrt(", "cos(", "sin(", "tan(", "pi", "deg", "rad", " ", ",", "2^9", "1/0", "é",

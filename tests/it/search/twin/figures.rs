@@ -1,8 +1,8 @@
 //! Mobility and motion of joints, from the twists of all links.
 
 use super::rational::{Q, reduce};
+use crate::common::*;
 use num_traits::{One, Zero};
-use ozols::model::mechanism::LinkId;
 
 /// Joint motion written out with a twist for every link: unknowns are link twists and joint speeds; each joint demands
 /// t_b - t_a = Σ speeds · twists, and the frame rests; `coupled` are sums of two speeds with factors that must vanish. No

@@ -1,10 +1,10 @@
 //! Twists of joints, and elimination, in rational arithmetic.
 
+use crate::common::*;
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::Zero;
-use ozols::model::joint_type::{Freedom, JointType};
-use ozols::model::mechanism::{Frame, Mode};
+use ozols::model::mechanism::Frame;
 
 pub(super) type Q = BigRational;
 

@@ -1,10 +1,9 @@
 //! Grippers of three jaws by trying all: every way to join labelled links, every choice of roles, the least code of every numbering.
 //! Motions are counted in floating point at scattered places. Nothing of it is code that counts structures.
 
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::PairKind;
 use ozols::chains::structure::PairStructure;
-use std::collections::BTreeSet;
 
 /// What joins each two links, a letter or `-`: (0, 1), (0, 2), (1, 2) and so on.
 type Joined = Vec<char>;
