@@ -8,8 +8,8 @@ mod flat;
 mod made;
 mod passing;
 mod strongest;
-mod three_generic;
-mod twin_figures;
+pub(super) mod three_generic;
+pub(super) mod twin_figures;
 
 use super::carried_on::scattered;
 use super::command::{at, whole};

@@ -1,7 +1,7 @@
 //! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
 
-use super::motions::bracketed;
-use super::{Drawn, each_of, form, layout, moved, plain};
+use super::stroke::filed;
+use super::{Drawn, each_of, form, free_motions, layout, plain};
 use crate::common::*;
 use ozols::catalog::row::row;
 use ozols::chains::roles::Subject;
@@ -39,37 +39,10 @@ fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bo
             (3 * v + 2, -1.0),
         ]);
     }
-    let mut pivots: Vec<(usize, usize)> = Vec::new();
-    for c in 0..n {
-        let free = |r: &usize| pivots.iter().all(|p| p.0 != *r);
-        let size = |r: &usize| rows[*r][c].abs();
-        let best = (0..rows.len())
-            .filter(free)
-            .max_by(|a, b| size(a).total_cmp(&size(b)));
-        let Some(p) = best.filter(|p| size(p) > 1e-9) else {
-            continue;
-        };
-        let own = rows[p].clone();
-        for (_, other) in rows.iter_mut().enumerate().filter(|(r, _)| *r != p) {
-            let factor = other[c] / own[c];
-            other
-                .iter_mut()
-                .zip(&own)
-                .for_each(|(x, o)| *x -= factor * o);
-        }
-        pivots.push((p, c));
-    }
-    let free = (0..n)
-        .filter(|c| pivots.iter().all(|p| p.1 != *c))
-        .collect_vec();
-    let [only] = free[..] else {
+    let free = free_motions(rows, n);
+    let [motion] = &free[..] else {
         return (free.len(), false);
     };
-    let mut motion = vec![0.0; n];
-    motion[only] = 1.0;
-    for (r, c) in pivots {
-        motion[c] = -rows[r][only] / rows[r][c];
-    }
     let moves = |l: &usize| motion[3 * l..3 * l + 3].iter().any(|x| x.abs() > 1e-9);
     (
         1,
@@ -157,21 +130,17 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
         );
         assert!(laid.exact && !laid.ideas.is_empty());
         // All three tips as fast towards the middle, as the layout says.
-        let step = 1e-5;
-        let (ahead, back) = (moved(&s, &drawn, step), moved(&s, &drawn, -step));
-        let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
-        for (a, b) in ahead.iter().zip(&back) {
-            let speed = (radius(a) - radius(b)).abs() / (2.0 * step);
-            let stated = laid.layout.looks.closing / 2.0;
-            assert!((speed - stated).abs() < 1e-4 * stated, "{speed} {stated}");
-            let mean = bracketed(&s, &laid.figures, 1.5, 2.0 * speed);
-            let told = laid.figures.force[1];
-            assert!((told / mean - 1.0).abs() < 1e-3, "{told} {mean}");
+        let twin = filed(&s, &drawn);
+        let pose = twin.seen(twin.drawn());
+        near(
+            2.0 * laid.layout.looks.closing * pose.drive().abs(),
+            2.0,
+            2e-4,
+        );
+        for speed in pose.parting() {
+            near(speed, 0.5, 1e-4);
         }
-        // Work in is work out: three jaws, whose openings are twice their ways.
         let f = &laid.figures;
-        let work = f.force[1] * 1.5 * (f.openings[1] - f.openings[0]) / 1000.0;
-        assert!(work > 0.5 * f.travel && work < 2.0 * f.travel, "{f:?}");
         assert!(
             f.turns.iter().all(|t| (t - f.turns[0]).abs() < 1e-6),
             "{f:?}"
@@ -190,19 +159,9 @@ fn generic_structures_of_three_jaws_close_on_the_part() {
             return;
         };
         laid += 1;
-        let step = 1e-5;
-        let (ahead, back) = (moved(&s, &l, step), moved(&s, &l, -step));
-        let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
-        let speeds = ahead
-            .iter()
-            .zip(&back)
-            .map(|(a, b)| radius(a) - radius(b))
-            .collect_vec();
-        assert!(
-            speeds.iter().all(|v| v * speeds[0] > 0.0),
-            "{}: {speeds:?}",
-            s.name()
-        );
+        let twin = filed(&s, &l);
+        let speeds = twin.seen(twin.drawn()).parting();
+        assert!(speeds.iter().all(|v| *v > 0.0), "{}: {speeds:?}", s.name());
     });
     // Two inputs of each.
     assert_eq!(all, 2 * 31);

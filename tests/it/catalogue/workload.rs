@@ -1,7 +1,8 @@
 //! The workload of a catalogue: what the drive must do for it, by hand and by virtual work.
 
 use super::command::at;
-use super::{each, form, layout, moved_points};
+use super::stroke::filed;
+use super::{each, form, layout};
 use crate::common::*;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
@@ -149,17 +150,19 @@ fn the_drive_does_the_work_of_part_and_links() {
                 acting.push((link, half, [3.0 * mass, -9.81 * mass]));
             }
         }
-        let slides = s.input() == Input::Slide;
-        let step = if slides { 1e-4 } else { 2e-6 };
-        let at: Vec<_> = acting.iter().map(|&(link, p, _)| (link, p)).collect();
-        let [ahead, back] = [step, -step].map(|q| moved_points(&s, &l, q, &at));
-        let work: f64 = acting
-            .iter()
-            .zip(ahead.iter().zip(&back))
-            .map(|((_, _, f), (a, b))| f[0] * (a[0] - b[0]) + f[1] * (a[1] - b[1]))
-            .sum();
+        let twin = filed(&s, &l);
+        let pose = twin.seen(twin.drawn());
+        let work = acting.iter().map(|&(link, p, f)| {
+            let [x, y] = pose.speed(link, p);
+            f[0] * x + f[1] * y
+        });
         // N, or N·m for N·mm.
-        let asked = work / (2.0 * step) / if slides { 1.0 } else { 1000.0 };
+        let metre = if s.input() == Input::Slide {
+            1.0
+        } else {
+            1000.0
+        };
+        let asked = work.sum::<f64>() / pose.drive() / metre;
         let found = effort(&path);
         tried += 1;
         assert!(

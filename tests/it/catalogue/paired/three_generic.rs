@@ -1,7 +1,7 @@
 //! Three jaws with slides, gears and slots, laid out without symmetry.
 
 use crate::common::*;
-mod every_way;
+pub(in super::super) mod every_way;
 
 use super::super::carried_on::scattered;
 use super::super::command::{at, cards_of, whole};
