@@ -1,6 +1,6 @@
 //! Counts up to the symmetry of a layout, against a list of all variants whose images are found from the places of the joints.
 
-use super::command::at;
+use super::command::{at, lines};
 use super::three_jaws::third;
 use super::{each_of, form, plain};
 use crate::common::*;
@@ -141,58 +141,40 @@ fn a_file_says_what_a_turn_carries_round() {
         "catalog build --links 6 --symmetry half-turn --parallel without --ideas 1 --quiet -o {db}"
     ));
     let sql = "SELECT id, determinate_w1, orbits_w1 FROM structures JOIN layouts ON structure = id ORDER BY id LIMIT 1";
-    let line = ok(&["catalog", "query", &db, sql, "--format", "csv"]);
-    let row: Vec<&str> = line.lines().nth(1).unwrap().split(',').collect();
+    let line = &lines(&db, sql)[0];
+    let row = line.split(',').collect_vec();
     ok(&["catalog", "export", &db, row[0], "-o", &file]);
-    let counts = |more: &str| -> String {
-        let args = [
-            "search",
-            &file,
-            "--max-mobility",
-            "1",
-            "--allow-output-change",
-            "--quiet",
-            "--format",
-            "json",
-        ];
-        let more = Some(more).filter(|m| !m.is_empty());
-        let found = ok(&args.into_iter().chain(more).collect::<Vec<_>>());
-        let found: Value = serde_json::from_str(&found).unwrap();
-        found["admissible"].as_str().unwrap().to_owned()
+    let counts = |more: &str| {
+        json(&format!(
+            "search {file} --max-mobility 1 --allow-output-change --quiet --format json {more}"
+        ))["admissible"]
+            .clone()
     };
-    assert_eq!(
-        (counts("").as_str(), counts("--one-per-orbit").as_str()),
-        (row[1], row[2])
+    assert_eq!([counts(""), counts("--one-per-orbit")], [row[1], row[2]]);
+    has(
+        &ok(&["catalog", "show", &db, row[0]]),
+        "up to half-turn images",
     );
-    let shown = ok(&["catalog", "show", &db, row[0]]);
-    assert!(shown.contains("up to half-turn images"), "{shown}");
     // A file that groups wrong joints is told so, and one that groups them wrongly.
     let text = fs::read_to_string(&file).unwrap();
     let begin = text.find("turn = [").unwrap();
     let end = begin + text[begin..].find("\n\n").unwrap();
     let names: Vec<&str> = text[begin..end].split('"').skip(1).step_by(2).collect();
-    let with = |turn: &str| {
+    let [a, b, c, d] = names[..4] else {
+        panic!("{names:?}")
+    };
+    for (turn, says) in [
+        (format!("turn = [[\"{a}\", \"{c}\"]]"), "image"),
+        (format!("turn = [[\"{a}\"]]"), "write pairs for half a turn"),
+        (
+            format!("turn = [[\"{a}\", \"{b}\"]]\nmirror = [[\"{c}\", \"{d}\"]]"),
+            "keep one of them",
+        ),
+    ] {
         let wrong = at(&folder, "wrong.toml");
         fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
-        let o = run(&["search", &wrong, "--one-per-orbit"]);
-        (o.status.code(), crate::common::text(&o.stderr))
-    };
-    let (code, told) = with(&format!("turn = [[\"{}\", \"{}\"]]", names[0], names[2]));
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("image"), "{told}");
-    let (code, told) = with(&format!("turn = [[\"{}\"]]", names[0]));
-    assert!(
-        code == Some(2) && told.contains("write pairs for half a turn"),
-        "{told}"
-    );
-    let (code, told) = with(&format!(
-        "turn = [[\"{0}\", \"{1}\"]]\nmirror = [[\"{2}\", \"{3}\"]]",
-        names[0], names[1], names[2], names[3]
-    ));
-    assert!(
-        code == Some(2) && told.contains("keep one of them"),
-        "{told}"
-    );
+        fails(&format!("search {wrong} --one-per-orbit"), says);
+    }
 }
 
 /// Necklaces of two and of three beads, turned until all are back in place: counted one by one, and from those that a turn keeps.

@@ -1,5 +1,6 @@
 //! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
 
+use super::command::{at, free_state, lines};
 use super::stroke::filed;
 use super::{Drawn, each_of, form, free_motions, layout, plain};
 use crate::common::*;
@@ -171,64 +172,22 @@ fn generic_structures_of_three_jaws_close_on_the_part() {
 #[test]
 fn the_command_takes_three_jaws() {
     let folder = tempdir().unwrap();
-    let db = folder.path().join("three.db").display().to_string();
-    let said = |args: &[&str], code: i32| {
-        let o = run(&[&["catalog"], args].concat());
-        assert_eq!(o.status.code(), Some(code), "{args:?}: {o:?}");
-        String::from_utf8(if code == 0 { o.stdout } else { o.stderr }).unwrap()
-    };
-    let build = [
-        "build",
-        "--links",
-        "8",
-        "--symmetry",
+    let [db, toml] = ["three.db", "g.toml"].map(|n| at(&folder, n));
+    has(
+        &ok(&format!(
+            "catalog build --links 8 --symmetry threefold --ideas 2 --quiet -o {db} --jaws 3"
+        )),
         "threefold",
-        "--ideas",
-        "2",
-        "--quiet",
-        "-o",
-        &db,
-    ];
-    let told = said(&[&build[..], &["--jaws", "3"]].concat(), 0);
-    assert!(told.contains("threefold"), "{told}");
+    );
     let sql = "SELECT id FROM structures JOIN layouts ON structure = id WHERE jaws_at_frame = 3";
-    let id = said(&["query", &db, sql, "--format", "csv"], 0)
-        .lines()
-        .nth(1)
-        .unwrap()
-        .to_owned();
-    let shown = said(&["show", &db, &id], 0);
-    assert!(
-        shown.contains("round the part, 3 of them at the frame; laid out threefold"),
-        "{shown}"
+    let id = &lines(&db, sql)[0];
+    let shown = ok(&["catalog", "show", &db, id]);
+    has(
+        &shown,
+        "round the part, 3 of them at the frame; laid out threefold",
     );
-    assert!(shown.contains("swinging, swinging and swinging"), "{shown}");
-    let toml = folder.path().join("g.toml").display().to_string();
-    said(&["export", &db, &id, "--idea", "1", "-o", &toml], 0);
-    let analysed = run(&["analyze", &toml, "--format", "json"]);
-    let analysed: Value = serde_json::from_slice(&analysed.stdout).unwrap();
-    assert_eq!(
-        (
-            &analysed["states"][0]["mobility"],
-            &analysed["states"][0]["redundant"]
-        ),
-        (&1.into(), &0.into())
-    );
-    let page = folder.path().join("g.html").display().to_string();
-    said(&["page", &db, "-o", &page], 0);
-    let html = fs::read_to_string(&page).unwrap();
-    let cards = super::command::cards_of(&html);
-    let card = cards.iter().find(|c| c["id"] == *id).unwrap();
-    assert!(card["tip_c_dx"].is_number(), "{card}");
-    for (more, says) in [
-        (&["--jaws", "4"][..], "jaws must be from 2 to 3"),
-        (
-            &["--jaws", "3", "--input", "turn", "--parallel", "only"],
-            "each side is in a plane of its own",
-        ),
-        (&["--jaws", "2"], "no layout is asked for"),
-    ] {
-        let told = said(&[&build[..], more].concat(), 2);
-        assert!(told.contains(says), "{told}");
-    }
+    has(&shown, "swinging, swinging and swinging");
+    ok(&["catalog", "export", &db, id, "--idea", "1", "-o", &toml]);
+    let free = free_state(&toml);
+    assert_eq!([&free["mobility"], &free["redundant"]], [1, 0]);
 }

@@ -11,7 +11,7 @@ fn what_crosses_often_passes_in_planes() {
     let folder = tempdir().unwrap();
     let file = at(&folder, "turned.db");
     let words = "catalog build --links 6 --pairs slot --symmetry half-turn --ideas 0 --quiet -o";
-    ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
+    ok(&format!("{words} {file}"));
     let all = rows(
         &file,
         "SELECT no_layout, crossings, planes FROM structures LEFT JOIN layouts l ON l.structure = id LEFT JOIN planes p ON p.structure = id",

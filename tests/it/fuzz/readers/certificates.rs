@@ -1,6 +1,6 @@
 //! Files of certificates.
 
-use crate::common::*;
+use ozols::model::mechanism::StateId;
 use ozols::rank::exact::certificate::{certify, matrix, number_field};
 use ozols::verify;
 use ozols::verify::certificate::{CertificateFile, FORMAT};

@@ -1,6 +1,7 @@
 //! Expressions for coordinates, such as `sqrt(3)/2` and `cos(36deg)`.
 
-use crate::common::*;
+use ozols::geom::expr::Expr;
+
 pub(crate) const TOKENS: [&str; 28] = [
     "0", "1", "2", "7", "360", "0.5", "1e3", "1e-9", ".", "+", "-", "*", "/", "^", "(", ")",
     "sqrt(", "cos(", "sin(", "tan(", "pi", "deg", "rad", " ", ",", "2^9", "1/0", "é",
