@@ -5,6 +5,8 @@
 
 #![no_main]
 
+#[path = "../it/common/names.rs"]
+mod common;
 #[path = "../it/fuzz/readers.rs"]
 mod readers;
 

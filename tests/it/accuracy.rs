@@ -1,18 +1,13 @@
 //! The survey of the methods, and where the naive formulas fail.
 
-use crate::common::quick_accuracy;
+use crate::common::*;
 use ozols::accuracy::AnswerVerdict;
-use ozols::accuracy::change::Noise;
 use ozols::accuracy::lattice::toggles;
 use ozols::accuracy::pictures;
 use ozols::accuracy::special::SpecialKind;
 use ozols::accuracy::survey::{Reply, Survey, cases, generated};
 use ozols::accuracy::timing::Stopwatch;
-use ozols::builtin;
-use ozols::closure::Closure;
-use ozols::file::text::mechanism_from_str;
 use ozols::geom::Reals;
-use ozols::model::mechanism::StateId;
 use ozols::rank::method::{MobilityMethod, registry};
 use ozols::rank::numeric::Elimination;
 use std::sync::LazyLock;
@@ -115,15 +110,15 @@ fn rows(csv: &str) -> Vec<Vec<String>> {
     rows
 }
 
-fn run(args: &[&str]) -> String {
+fn run<L: Line + ?Sized>(args: &L) -> String {
     let mut command = assert_cmd::Command::cargo_bin("ozols").unwrap();
-    let out = command.args(args).assert().success();
+    let out = command.args(args.words()).assert().success();
     String::from_utf8(out.get_output().stdout.clone()).unwrap()
 }
 
 /// What does not depend on time.
 fn verdicts(folder: &std::path::Path) -> Vec<(String, String)> {
-    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     let mut out: Vec<(String, String)> = [
         "stability-distance.csv",
         "stability-digits.csv",
@@ -277,7 +272,7 @@ fn special_mechanisms_are_those_of_their_seed() {
 
 #[test]
 fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let (said, at) = quick_accuracy();
     assert!(
         said.contains(&format!(
@@ -286,9 +281,9 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
         )) && said.contains("Size of the prime: ")
     );
     let mut svgs = 0;
-    for entry in std::fs::read_dir(at).unwrap() {
+    for entry in fs::read_dir(at).unwrap() {
         let path = entry.unwrap().path();
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
         match path.extension().unwrap().to_str().unwrap() {
             "svg" => {
                 roxmltree::Document::parse(&text).unwrap_or_else(|e| panic!("{path:?}: {e}"));
@@ -300,7 +295,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
     }
     assert_eq!(svgs, 12);
 
-    let read = |name: &str| std::fs::read_to_string(at.join(name)).unwrap();
+    let read = |name: &str| fs::read_to_string(at.join(name)).unwrap();
     offsets_beyond_what_digits_allow_are_kept(&rows(&read("stability-digits.csv")));
     exact_ranks_do_not_depend_on_the_unit(&rows(&read("stability-scale.csv")));
     errors_fall_with_the_prime(&rows(&read("stability-prime.csv")));
@@ -349,14 +344,10 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
         assert_eq!(row[error], off.unwrap_or_default(), "{row:?}");
     }
     let other = folder.path().join("other");
-    run(&[
-        "accuracy",
-        "--quick",
-        "--threads",
-        "1",
-        "-o",
-        other.to_str().unwrap(),
-    ]);
+    run(&format!(
+        "accuracy --quick --threads 1 -o {}",
+        other.display()
+    ));
     for (one, two) in verdicts(at).into_iter().zip(verdicts(&other)) {
         assert!(one == two, "{} differs between runs", one.0);
     }
@@ -364,7 +355,7 @@ fn a_quick_run_writes_a_chart_and_a_table_of_each_study() {
 
 #[test]
 fn without_a_folder_there_is_a_verdict_a_table_and_the_next_step() {
-    let here = tempfile::tempdir().unwrap();
+    let here = tempdir().unwrap();
     let mut command = assert_cmd::Command::cargo_bin("ozols").unwrap();
     let out = command
         .current_dir(&here)
@@ -384,5 +375,5 @@ fn without_a_folder_there_is_a_verdict_a_table_and_the_next_step() {
     assert!(lines[0].contains("cases of known mobility: the automatic choice is right on"));
     assert!(lines[2].trim_start().starts_with("method"), "{text}");
     assert_eq!(lines[2 + table + 4].trim(), "ozols accuracy -o accuracy");
-    assert_eq!(std::fs::read_dir(&here).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(&here).unwrap().count(), 0);
 }

@@ -2,9 +2,9 @@
 //!
 //! This looks at what they name. `.ci/run` runs all tests in a copy with nothing beside it.
 
+use crate::common::*;
 use crate::sources::root;
-use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::Component;
 
 /// Folders of other projects' files. Who names them here does without where they are missing.
 const OTHERS: [(&str, &str); 4] = [

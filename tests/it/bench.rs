@@ -1,20 +1,17 @@
 //! Ways of searching: which answers of theirs are right.
 
-use crate::common::{built_in, changed, count, json, out, ozols, text};
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::Mechanism;
 use ozols::accuracy::searching::record::{Record, Trial};
 use ozols::accuracy::searching::search_method::Way;
 use ozols::accuracy::searching::{MECHANISMS, TrialEffort, pictures, trial};
 use ozols::accuracy::timing::{Machine, Stopwatch};
-use ozols::file::text::mechanism_from_str;
 use ozols::rank::numeric::Elimination;
 use ozols::score::request::{Check, List, Request};
 use ozols::search::check::brute::{Matrices, Seen};
 use ozols::search::check::brute_float::Approximate;
 use ozols::search::check::pruned::Pruned;
 use ozols::search::check::singular_values;
-use serde_json::Value;
 use std::time::Duration;
 
 const EFFORT: TrialEffort = TrialEffort {
@@ -84,14 +81,7 @@ fn the_truth_is_what_is_known() {
     assert_eq!(t.found, Some(known));
     assert!(!t.whole && t.looked == 400 && t.ranked.is_none());
     let t = trial_of("goldberg-5r");
-    let counts = json(&[
-        "search",
-        "goldberg-5r",
-        "--method",
-        "brute",
-        "--format",
-        "json",
-    ]);
+    let counts = json("search goldberg-5r --method brute --format json");
     let known = ["determinate", "admissible"].map(|k| BigUint::from(count(&counts[k])));
     assert_eq!((t.whole, t.found), (true, Some(known)));
 }
@@ -329,11 +319,11 @@ fn the_command_says_the_same_in_every_format() {
     }
     assert!(said.contains("four-bar: 64 variants, 34 determinate, 14 admissible"));
 
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("bench");
     let said = out(&[&args[..], &["-o", at.to_str().unwrap()]].concat());
     assert!(said.trim_end().ends_with("open it in a browser."));
-    let names = std::fs::read_dir(&at).unwrap();
+    let names = fs::read_dir(&at).unwrap();
     assert!(names.count() >= 3);
 }
 

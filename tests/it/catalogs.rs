@@ -1,11 +1,9 @@
 //! Every built-in mechanism has the figures its file states, with their sources.
 
-use crate::common::{built_in, json};
-use ozols::builtin;
-use ozols::model::mechanism::StateId;
-use ozols::redundancy::analysis::{Elimination, Method, analyse};
+use crate::common::*;
+use ozols::redundancy::analysis::Elimination;
 use ozols::redundancy::{StateFigures, figures};
-use serde_json::{Value, json as value};
+use serde_json::json as value;
 
 #[test]
 fn every_built_in_mechanism_has_the_figures_it_states() {

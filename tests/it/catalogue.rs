@@ -1,17 +1,16 @@
 //! Structures laid out: exactly symmetric, one motion that closes the jaws, determinate variants as published.
 
+use crate::common::*;
 mod by_hand;
 mod carried_on;
 mod chains;
 mod command;
 mod damaged;
-mod dense_twin;
 mod determinate;
 mod find;
 mod general;
 mod given_up;
 mod killed;
-mod motions;
 mod neighbours;
 mod orbits;
 mod out_of_plane;
@@ -25,15 +24,12 @@ mod tasks;
 mod three_jaws;
 mod workload;
 
-use itertools::Itertools;
 use ozols::catalog::row::{Laid, StructureRow, row};
 use ozols::catalog::spec::Spec;
 use ozols::chains::enumerate::chains;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry};
 use ozols::file::schema::{Coordinate, DriveWord};
-use ozols::geom::vector::real;
-use ozols::model::{joint_type::JointType, mechanism::Mechanism};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::{Layout, NoLayout};
 use ozols::synthesis::listed::hinged_structures;
@@ -43,8 +39,8 @@ use ozols::synthesis::structure::{Form, Structure};
 use ozols::synthesis::task::Limits;
 use ozols::synthesis::workload::Workload;
 use ozols::{Request, analyze};
-use std::collections::BTreeMap;
 use std::ops::Deref;
+use stroke::filed;
 
 /// A layout with only hinges, as pins at exact places.
 struct Drawn {
@@ -194,8 +190,8 @@ fn parallelograms_are_exact_and_their_jaws_do_not_turn() {
     assert!(seen > 0);
 }
 
-/// The two tips' distance across, by solving the places of all pins afresh for a drive moved a little: Newton's method on
-/// the distances of pins of one link, by least squares with difference quotients. Shares no code with the velocities.
+/// By the twin, at the drawn place: how fast the tips part, and what a rod passes on, which is the angle between the motion of its
+/// faster end and the line across the rod.
 #[test]
 fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
     let forms = [
@@ -209,18 +205,16 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
             return;
         }
         let l = layout(&s, &Limits::default(), 1).unwrap();
-        let step = 1e-5 * if s.input() == Input::Slide { 1.0 } else { 0.02 };
-        let gap = |drive: f64| -> f64 {
-            let tips = moved(&s, &l, drive);
-            tips[0][1] - tips[1][1]
-        };
-        let rate = (gap(step) - gap(-step)) / (2.0 * step);
+        let twin = filed(&s, &l);
+        let pose = twin.seen(twin.drawn());
+        let rate = 1.0 / pose.drive();
         let stated = l.looks.closing;
         assert!(
             (rate.abs() - stated).abs() < 1e-4 * stated,
             "{}: {rate} {stated}",
             s.name()
         );
+        near(pose.rods(), l.looks.transmission, 1e-2);
         // Against each other: the sum of both tips' speeds is more than either.
         let [a, b] = l.looks.tips[..] else {
             panic!("two tips")
@@ -231,72 +225,6 @@ fn the_drive_closes_the_jaws_as_fast_as_the_layout_says() {
         assert_eq!(found.closes, -rate.signum(), "{}", s.name());
     });
     assert!(ways.contains(&1.0) && ways.contains(&-1.0), "{ways:?}");
-}
-
-/// Where the tips are when the drive has moved.
-fn moved(s: &Structure, l: &Drawn, drive: f64) -> Vec<[f64; 2]> {
-    let tips = s.structure.roles.jaws.iter().zip(&l.tips);
-    let tips: Vec<_> = tips.map(|(&jaw, tip)| (jaw, tip.real())).collect();
-    moved_points(s, l, drive, &tips)
-}
-
-/// Where points of links are when the drive has moved: unknown are a turn and a shift of each link.
-fn moved_points(
-    s: &Structure,
-    l: &Drawn,
-    drive: f64,
-    points: &[(usize, [f64; 2])],
-) -> Vec<[f64; 2]> {
-    let n = s.structure.chain.links();
-    let place = |x: &[f64], link: usize, p: [f64; 2]| {
-        if link == s.structure.roles.frame {
-            return p;
-        }
-        let [t, u, v] = [x[3 * link], x[3 * link + 1], x[3 * link + 2]];
-        [
-            t.cos() * p[0] - t.sin() * p[1] + u,
-            t.sin() * p[0] + t.cos() * p[1] + v,
-        ]
-    };
-    let residuals = |x: &[f64]| {
-        let mut out = Vec::new();
-        for (&(u, v), at) in l.pins.iter().zip(&l.at) {
-            let input =
-                [(u, v), (v, u)].contains(&(s.structure.roles.frame, s.structure.roles.drive()[1]));
-            if input && s.input() == Input::Slide {
-                let d = s.structure.roles.drive()[1];
-                out.extend([50.0 * x[3 * d], x[3 * d + 1] - drive, x[3 * d + 2]]);
-                continue;
-            }
-            let p = at.real();
-            let (a, b) = (place(x, u, p), place(x, v, p));
-            out.extend([a[0] - b[0], a[1] - b[1]]);
-        }
-        if s.input() == Input::Turn {
-            out.push(50.0 * (x[3 * s.structure.roles.drive()[1]] - drive));
-        }
-        // The frame stands still.
-        out.extend((0..3).map(|k| x[3 * s.structure.roles.frame + k]));
-        out
-    };
-    let mut x = vec![0.0; 3 * n];
-    for _ in 0..8 {
-        let r = residuals(&x);
-        let columns: Vec<Vec<f64>> = (0..x.len())
-            .map(|c| {
-                let mut y = x.clone();
-                y[c] += 1e-7;
-                residuals(&y)
-                    .iter()
-                    .zip(&r)
-                    .map(|(a, b)| (a - b) / 1e-7)
-                    .collect()
-            })
-            .collect();
-        let dx = gauss(&columns, &r);
-        x.iter_mut().zip(dx).for_each(|(a, d)| *a -= d);
-    }
-    points.iter().map(|&(l, p)| place(&x, l, p)).collect()
 }
 
 /// Solves a square system given by columns.
@@ -318,6 +246,33 @@ fn gauss(columns: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
         }
     }
     (0..n).map(|i| rows[i][n] / rows[i][i]).collect()
+}
+
+/// All solutions of homogeneous equations, one for each unknown that is left free.
+fn free_motions(mut rows: Vec<Vec<f64>>, n: usize) -> Vec<Vec<f64>> {
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    for c in 0..n {
+        let free = (0..rows.len()).filter(|r| pivots.iter().all(|p| p.0 != *r));
+        let best = free.max_by(|&a, &b| rows[a][c].abs().total_cmp(&rows[b][c].abs()));
+        let Some(p) = best.filter(|&p| rows[p][c].abs() > 1e-9) else {
+            continue;
+        };
+        let own = rows[p].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != p) {
+            let factor = row[c] / own[c];
+            row.iter_mut().zip(&own).for_each(|(x, o)| *x -= factor * o);
+        }
+        pivots.push((p, c));
+    }
+    let motion = |free: usize| {
+        let mut out = vec![0.0; n];
+        out[free] = 1.0;
+        let bound = pivots.iter();
+        bound.for_each(|&(r, c)| out[c] = -rows[r][free] / rows[r][c]);
+        out
+    };
+    let free = (0..n).filter(|c| pivots.iter().all(|p| p.1 != *c));
+    free.map(motion).collect()
 }
 
 /// The mechanism with its pins moved by less than half a millimetre, so that no two axes through them coincide: the

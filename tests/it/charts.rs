@@ -1,9 +1,6 @@
 //! Every chart that the program writes: two labels or more on each axis.
 
-use crate::common::{quick_accuracy, run};
-use std::fs;
-use std::path::{Path, PathBuf};
-
+use crate::common::*;
 fn pictures(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -40,7 +37,7 @@ fn labels(svg: &str) -> Option<[usize; 2]> {
 
 #[test]
 fn each_axis_of_each_chart_has_two_labels_or_more() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let commands: [&[&str]; 6] = [
         &[

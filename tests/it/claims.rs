@@ -3,7 +3,7 @@
 use crate::common::*;
 use ozols::drive::torsion::{Bar, CamSpring};
 use serde_json::json as value;
-use std::f64::consts::{FRAC_PI_4, PI, TAU};
+use std::f64::consts::FRAC_PI_4;
 
 fn claims(args: &[&str]) -> (Vec<Value>, String) {
     let found = json(&[args, &["--format", "json"]].concat());
@@ -319,7 +319,7 @@ fn misprints_of_the_drive_are_told() {
         diameter: 0.005,
         shear_modulus: 8e10,
     };
-    let k = std::f64::consts::PI * 0.005f64.powi(4) * 8e10 / (32.0 * 0.346);
+    let k = PI * 0.005f64.powi(4) * 8e10 / (32.0 * 0.346);
     near(bar.stiffness(), k, 1e-9);
     let by_nine = 8.0 * (TAU * 0.23 * 0.346 / (0.005f64.powi(4) * 8e10)).sqrt();
     near(by_nine, TAU * (0.23 / k).sqrt(), 1e-9);

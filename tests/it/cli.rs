@@ -1,5 +1,6 @@
 //! The program as its users meet it: exit codes, messages, formats, repeatability.
 
+use crate::common::*;
 mod bad_files;
 mod bounds;
 mod formats;
@@ -12,8 +13,6 @@ mod other_files;
 mod output;
 mod small;
 mod too_many;
-
-use crate::common::*;
 
 /// Options that make the gripper's space small.
 const SMALL: [&str; 4] = ["search", "gripper-10", "--options", "revolute,spherical"];
@@ -28,11 +27,9 @@ fn small_out(more: &[&str]) -> String {
 }
 
 /// Asserts that a run is refused with exit code 2, nothing on standard output, and these words.
-fn refused(args: &[&str], parts: &[&str]) -> String {
-    let o = run(args);
-    let said = text(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{args:?}: {said}");
-    assert!(o.stdout.is_empty(), "{args:?}");
+fn refused<L: Line + ?Sized>(args: &L, parts: &[&str]) -> String {
+    let (code, out, said) = ran(args);
+    assert_eq!((code, &*out), (Some(2), ""), "{:?}: {said}", args.words());
     assert!(said.starts_with("error: "), "{said}");
     has_all(&said, parts);
     said

@@ -1,30 +1,14 @@
 //! What several tests need: the program and what it says, closeness, a text with one thing changed.
 
+mod names;
+
 use assert_cmd::Command;
-pub(crate) use itertools::Itertools;
-pub(crate) use num_bigint::BigUint;
-pub(crate) use ozols::builtin;
-use ozols::closure::Closure;
-pub(crate) use ozols::file::text::mechanism_from_str;
-use ozols::geom::exact::ExactField;
-pub(crate) use ozols::geom::expr::Expr;
+pub(crate) use names::*;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
-pub(crate) use ozols::model::joint_type::{Freedom, JointType};
-pub(crate) use ozols::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
-pub(crate) use ozols::redundancy::analysis::{Method, analyse, exact_field};
-pub(crate) use ozols::search::Search;
-pub(crate) use ozols::search::question::conditions::Conditions;
-pub(crate) use serde_json::Value;
-pub(crate) use std::collections::{BTreeMap, BTreeSet};
-pub(crate) use std::fs;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
-pub(crate) use std::path::Path;
-use std::path::PathBuf;
-use std::process::Output;
-use std::sync::OnceLock;
-use tempfile::TempDir;
+pub(crate) use tempfile::{TempDir, tempdir};
 
 /// A command line: its words, or a text with blanks between them.
 pub(crate) trait Line {
@@ -88,33 +72,6 @@ pub(crate) fn has_all(text: &str, parts: &[&str]) {
     for part in parts {
         has(text, part);
     }
-}
-
-/// What a value of JSON is known to be.
-pub(crate) trait Json {
-    fn list(&self) -> &Vec<Value>;
-    fn word(&self) -> &str;
-    fn real(&self) -> f64;
-    fn whole(&self) -> u64;
-}
-
-impl Json for Value {
-    fn list(&self) -> &Vec<Value> {
-        self.as_array().unwrap()
-    }
-    fn word(&self) -> &str {
-        self.as_str().unwrap()
-    }
-    fn real(&self) -> f64 {
-        self.as_f64().unwrap()
-    }
-    fn whole(&self) -> u64 {
-        self.as_u64().unwrap()
-    }
-}
-
-pub(crate) fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// A text without the time that a search took, the one thing in it that differs between runs.
@@ -209,11 +166,6 @@ pub(crate) fn but<T: Default>(change: impl FnOnce(&mut T)) -> T {
     out
 }
 
-/// A built-in mechanism.
-pub(crate) fn built_in(name: &str) -> Mechanism {
-    ozols::built_in(name).unwrap()
-}
-
 /// A count, written as a string.
 pub(crate) fn count(v: &Value) -> u64 {
     v.as_str().unwrap().parse().unwrap()
@@ -260,6 +212,24 @@ pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {
     let (code, said, told) = ran(args);
     assert_eq!(code, Some(0), "{:?}: {told}", args.words());
     (said, told)
+}
+
+/// Standard output of a command that succeeds.
+#[track_caller]
+pub(crate) fn ok<L: Line + ?Sized>(args: &L) -> String {
+    done(args).0
+}
+
+/// Asserts that a command is refused with exit code 2 and these words.
+#[track_caller]
+pub(crate) fn fails<L: Line + ?Sized>(args: &L, says: &str) {
+    let (code, _, told) = ran(args);
+    assert_eq!(
+        (code, told.contains(says)),
+        (Some(2), true),
+        "{:?}: no {says:?} in {told}",
+        args.words()
+    );
 }
 
 /// Exit code, standard output and standard error of a command on a file with this text.

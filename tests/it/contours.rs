@@ -1,8 +1,8 @@
 //! The contour basis is a minimum cycle basis: against a greedy choice among all cycles of small graphs.
 
+use crate::common::*;
 mod shares;
 
-use crate::common::*;
 use ozols::closure::contour::{closed_walk, contour_basis};
 use ozols::redundancy::figures;
 use petgraph::algo::dijkstra;
@@ -197,7 +197,7 @@ proptest! {
 #[test]
 fn figures_told_at_once_are_those_of_the_analysis() {
     for name in ozols::builtin::names() {
-        let m = crate::common::built_in(name);
+        let m = built_in(name);
         if m.joints.len() > 30 {
             continue;
         }
@@ -216,11 +216,11 @@ fn figures_told_at_once_are_those_of_the_analysis() {
         );
     }
     // A four-bar of hinges: one contour, four freedoms of rank three.
-    let bar = figures(&crate::common::built_in("four-bar"), StateId::FREE).unwrap();
+    let bar = figures(&built_in("four-bar"), StateId::FREE).unwrap();
     assert_eq!((bar.contours, bar.freedoms), (1, 4));
     assert_eq!((bar.mobility, bar.redundant), (1, 3));
     // Malyshev's formula: six for each of three moving links, less five at each of four hinges.
-    let bar = crate::common::built_in("four-bar");
+    let bar = built_in("four-bar");
     let found = analyse(&bar, &[StateId::FREE], Method::Modular).unwrap();
     assert_eq!(found[0].formula_mobility, 6 * 3 - 5 * 4);
 }

@@ -1,9 +1,9 @@
 //! Couplings of joints: figures derived by hand, what the file may say, and every method on the same rows.
 
+use crate::common::*;
 mod counted;
 mod exchange;
 
-use crate::common::*;
 use ozols::rank::method::NoAnswer;
 use ozols::rank::method::registry::by_name;
 use ozols::redundancy::analysis::StateAnalysis;

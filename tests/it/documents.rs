@@ -5,9 +5,9 @@
 //! lines left out and `[..]` for part of a line. A block marked with a name, as `xml NAME`, is a file in that folder.
 //! Figures that stand elsewhere are held against the program by [`figures`].
 
+use crate::common::*;
 pub(crate) mod figures;
 
-use crate::common::*;
 use crate::robots::assemblies::make;
 use assert_cmd::Command;
 use snapbox::Assert;
@@ -53,7 +53,7 @@ fn files(text: &str) -> Vec<(&str, &str)> {
 fn run(document: &str) -> (usize, Vec<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(root.join(document)).unwrap();
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for (name, body) in files(&text) {
         fs::write(folder.path().join(name), body).unwrap();
     }

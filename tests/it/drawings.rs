@@ -1,5 +1,6 @@
 //! Drawings: labels that touch nothing, well-formed SVG, the same bytes each time.
 
+use crate::common::*;
 mod idle;
 mod interest;
 mod loads;
@@ -15,7 +16,6 @@ mod space;
 mod undriven;
 
 use self::reading::{collisions, covers, misread, outside, texts};
-use crate::common::*;
 use ozols::draw::{Drawing, Marks, Rect, Subject, kinematic, scheme};
 use ozols::search::question::conditions::InState;
 use std::fmt::Write as _;

@@ -1,16 +1,15 @@
 //! The torsional drive against `[Klyuchkovskyi 1999]`.
 
+use crate::common::*;
 mod cam;
 mod command;
 mod programmes;
 mod swings;
 mod unequal;
 
-use crate::common::near;
 use ozols::drive::torsion::{
     Bar, CamSpring, Wanted, decrement, diameter, frequency, friction_energy, stored_energy,
 };
-use std::f64::consts::TAU;
 
 // The formulas.
 

@@ -88,7 +88,7 @@ fn what_is_meant_is_no_fault() {
         ring(&[[0, 0], [1, 0], [3, 0], [3, 2]], &[0], 3),
     );
     let o = run(&["analyze", file, "--format", "json"]);
-    let found: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let found: Value = serde_json::from_slice(&o.stdout).unwrap();
     let state = &found["states"][0];
     assert_eq!(state["drives"][0]["kind"], "dead-point");
     assert_eq!(state["idle"].list().len(), 0);

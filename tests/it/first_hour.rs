@@ -1,9 +1,9 @@
 //! What a new user meets first: help and its examples, templates, terms, checks, the list, completions and colour.
 
+use crate::common::*;
 mod check;
 mod new;
 
-use crate::common::*;
 use ozols::terms::Terms;
 use std::process::Command;
 
@@ -68,7 +68,7 @@ fn run_examples(command: &str) {
     };
     let examples = examples(&help);
     assert!(!examples.is_empty(), "{command} has no examples");
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     // What users bring along themselves.
     let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots");
     // Beside `robot.urdf` a file of this name is not taken for its loops.
@@ -140,7 +140,7 @@ fn the_program_alone_says_where_to_begin() {
 
 #[test]
 fn every_term_shows_itself_by_a_command_that_runs() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let mut commands: Vec<String> = Terms::builtin().term.into_iter().map(|t| t.see).collect();
     commands.sort();
     commands.dedup();
@@ -157,7 +157,7 @@ fn every_term_shows_itself_by_a_command_that_runs() {
 
 #[test]
 fn the_list_is_there_as_data() {
-    let rows: serde_json::Value =
+    let rows: Value =
         serde_json::from_str(&out(&["list", "gripper-10", "--format", "json"])).unwrap();
     let rows = rows.list();
     let free = rows
@@ -192,7 +192,7 @@ fn the_list_is_there_as_data() {
 
 #[test]
 fn joint_types_are_explained_with_their_picture() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for t in JointType::NAMED {
         let path = folder.path().join(format!("{t}.svg"));
         let path = path.to_str().unwrap();

@@ -10,6 +10,7 @@
 //! search against brute force on small random mechanisms is in `twin`, and takes the same number. `tests/fuzz/run` makes inputs
 //! by how far into the code earlier ones came; `corpus` reads what was kept of them.
 
+use crate::common::*;
 mod certificates;
 mod corpus;
 mod expressions;
@@ -17,7 +18,6 @@ mod mechanism_files;
 pub(crate) mod readers;
 mod robot_files;
 
-use crate::common::but;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use std::ops::Range;

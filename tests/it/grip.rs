@@ -1,5 +1,6 @@
 //! Clamping levers against `[Pavlenko & Godunko 2010]`, and holding forces against independent statics.
 
+use crate::common::*;
 mod cases;
 mod clamped;
 mod effort;
@@ -8,7 +9,6 @@ mod holding;
 mod motion;
 mod published;
 
-use crate::common::*;
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::{Lever, LeverError};
 use proptest::prelude::*;
@@ -288,7 +288,7 @@ fn bad_tables_are_refused_where_they_stand() {
 
 #[test]
 fn charts_are_written_as_svg_and_csv() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("charts");
     out(&["grip", "lever-gripper", "--svg", at.to_str().unwrap()]);
     for name in ["arms", "drive-moment"] {

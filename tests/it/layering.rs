@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use crate::sources::{CRATES, below, rooms, root, without_tests};
-use std::path::PathBuf;
 
 /// The layers, lowest first, each with the folder of its crate; rooms of one row do not import each other. Between crates the
 /// compiler holds them, within one this test does.

@@ -1,6 +1,6 @@
 //! The library by its front door: what a program gets is what the command writes.
 
-use crate::common::{built_in, but, ozols, run, text, timeless};
+use crate::common::*;
 use ozols::model::ranking::Term;
 use ozols::score::outcome::remarks::Remarks;
 use ozols::score::request::{Check, JointOptions, List, Method};

@@ -1,7 +1,6 @@
 //! What commands say, phrase by phrase: verdicts first and digits last, directions named, remedies that work.
 
 use crate::common::*;
-
 fn coloured<L: Line + ?Sized>(args: &L, variable: (&str, &str)) -> String {
     let mut command = ozols(args);
     command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
@@ -27,7 +26,7 @@ fn verdicts_have_colour_where_a_person_looks() {
         assert_eq!(bare, plain, "{args:?}");
     }
     // not into a file
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("a.txt");
     coloured(
         &["analyze", "four-bar", "-o", path.to_str().unwrap()],
@@ -89,7 +88,7 @@ fn a_mechanism_without_an_output_can_be_analysed() {
     let own = changed(&out(&["show", "four-bar"]), "role = \"output\"", "");
     let (code, said, _) = run_on("analyze", "own.toml", &own, &["--format", "json"]);
     assert_eq!(code, Some(0));
-    let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let found: Value = serde_json::from_str(&said).unwrap();
     let known = json(&["analyze", "four-bar", "--format", "json"]);
     for key in words("mobility redundant working_mobility local_mobility") {
         assert_eq!(found["states"][0][key], known["states"][0][key], "{key}");
@@ -156,7 +155,7 @@ fn where_nothing_is_found_types_that_would_help_are_named_and_do() {
 
 #[test]
 fn exported_variants_can_be_searched_again() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("v.toml");
     let path = path.to_str().unwrap();
     for (name, more) in [
@@ -205,7 +204,7 @@ fn a_catalogue_that_is_not_there_says_how_to_make_one() {
         let err = text(&o.stderr);
         has(&err, "`ozols catalog build -o none.db` makes a catalogue");
     }
-    assert!(!std::path::Path::new("none.db").exists());
+    assert!(!Path::new("none.db").exists());
 }
 
 #[test]

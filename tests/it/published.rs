@@ -1,25 +1,12 @@
 //! The reference figures, by the program itself.
 
 use crate::common::*;
-use assert_cmd::Command;
 
-fn json(args: &[&str]) -> Value {
-    let out = Command::new(env!("CARGO_BIN_EXE_ozols"))
-        .args(args)
-        .args(["--format", "json"])
-        .output()
-        .unwrap();
-    // 1 says that there is nothing to be found, which some counts are about.
-    assert!(
-        out.status.code().is_some_and(|c| c < 2),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
-    );
-    assert!(
-        out.stderr.is_empty(),
-        "no progress where standard error is no terminal"
-    );
-    serde_json::from_slice(&out.stdout).unwrap()
+fn json<L: Line + ?Sized>(args: &L) -> Value {
+    let (code, said, told) = ran(&[&args.words()[..], &["--format", "json"]].concat());
+    // 1 says that there is nothing to be found, which some counts are about; no progress where standard error is no terminal.
+    assert!(code.is_some_and(|c| c < 2) && told.is_empty(), "{told}");
+    serde_json::from_str(&said).unwrap()
 }
 
 fn row(options: &str) -> Value {
@@ -79,15 +66,9 @@ fn brute_force_agrees_on_the_second_row() {
     let names = "revolute,cylindrical,universal,spherical";
     let (row, brute) = (
         row(names),
-        json(&[
-            "search",
-            "gripper-10",
-            "--count",
-            "--options",
-            names,
-            "--method",
-            "brute",
-        ]),
+        json(&format!(
+            "search gripper-10 --count --options {names} --method brute"
+        )),
     );
     for key in
         words("determinate by_mobility_and_changes admissible admissible_by_mobility_and_changes")
@@ -201,7 +182,7 @@ fn threads_do_not_matter() {
             "--format",
             format,
         ];
-        crate::common::out(&args)
+        out(&args)
     };
     for format in ["text", "json", "csv", "jsonl"] {
         let one = run("1", format);

@@ -1,12 +1,12 @@
 //! Ranking of variants under a workload.
 
+use crate::common::*;
 mod command;
 mod floor;
 mod geared;
 mod proof;
 mod reasons;
 
-use crate::common::*;
 use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
@@ -400,7 +400,7 @@ fn that_scores_are_at_rest_is_said_where_there_is_a_speed() {
         text.replacen("[workload]", "[workload]\ndrive_speed = 50", 1),
     );
     let said = |file: &str| {
-        let o = crate::common::run(&format!("search {file} --top 1 --pool 50 --check none"));
+        let o = run(&format!("search {file} --top 1 --pool 50 --check none"));
         String::from_utf8(o.stderr).unwrap()
     };
     assert!(said(path).contains("ranked at rest"), "{}", said(path));

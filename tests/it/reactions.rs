@@ -1,5 +1,6 @@
 //! Joint reactions of any mechanism: equilibrium, virtual work, frames, linearity, energy, self-stresses.
 
+use crate::common::*;
 mod command;
 mod couplings;
 mod cycle;
@@ -11,7 +12,6 @@ mod twists;
 mod two_drives;
 mod unilateral;
 
-use crate::common::*;
 use ozols::model::loads::{ExternalForce, MassProperties};
 use ozols::motion::pose::Pose;
 use ozols::statics::reactions::drives::driven;
@@ -355,7 +355,7 @@ fn nearly_equal_axes_are_told() {
              [[joint]]\nid = \"S\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [\"{tilt}\", 0, 1]\n"
         );
         let (_folder, path) = written("near.toml", text);
-        crate::common::out(&["statics", path, "--spatial"])
+        out(&["statics", path, "--spatial"])
     };
     let said = with("1/10000000000");
     has(

@@ -1,7 +1,6 @@
 //! The report page: its data are those of `ozols search`, its symbols those of `ozols draw`, its bytes always the same.
 
 use crate::common::*;
-
 /// What stands between two texts.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
     let (_, rest) = text.split_once(from).unwrap();
@@ -185,7 +184,7 @@ fn the_same_bytes_for_any_number_of_threads() {
 
 #[test]
 fn a_file_is_written_and_needs_nothing_else() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("report.html");
     let file = path.to_str().unwrap();
     assert_eq!(out(&["report", "gripper-10", "-o", file]), "");

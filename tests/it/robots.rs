@@ -1,5 +1,6 @@
 //! Robot descriptions: real models against the figures of other engines, and what is refused.
 
+use crate::common::*;
 pub(crate) mod assemblies;
 mod every_pose;
 mod exports;
@@ -16,11 +17,9 @@ mod sdf;
 mod taken;
 mod unread;
 
-use crate::common::*;
 use ozols::file::write::mechanism_file;
 use ozols::redundancy::analysis::{Elimination, StateAnalysis};
 use ozols::robots::{Imported, Options, import};
-use std::path::PathBuf;
 
 pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/robots")
@@ -31,7 +30,7 @@ pub(crate) fn none(_: &str) -> std::io::Result<Vec<u8>> {
 }
 
 pub(crate) fn model(path: &str, options: &Options) -> Imported {
-    let bytes = std::fs::read(folder().join(path)).unwrap();
+    let bytes = fs::read(folder().join(path)).unwrap();
     import(path, &bytes, &none, options).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -231,7 +230,7 @@ fn too_many_links() {
 #[test]
 fn the_command() {
     let file = folder().join("mimic_gripper.urdf");
-    let out = tempfile::tempdir().unwrap();
+    let out = tempdir().unwrap();
     let target = out.path().join("gripper.toml");
     let run = |more: &[&str]| {
         ozols(&[&["export", file.to_str().unwrap()][..], more].concat())
@@ -250,7 +249,7 @@ fn the_command() {
         .output()
         .unwrap();
     assert_eq!(checked.status.code(), Some(0));
-    let json: serde_json::Value = serde_json::from_slice(&run(&["--to", "json"]).stdout).unwrap();
+    let json: Value = serde_json::from_slice(&run(&["--to", "json"]).stdout).unwrap();
     assert_eq!(json["joint"][0]["type"], "revolute");
     for bad in [
         &["--pose", "finger_joint"][..],

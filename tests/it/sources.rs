@@ -1,8 +1,6 @@
 //! The source files, for tests that look at the code itself.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
+use crate::common::*;
 /// The folders of the crates below `src`, which hold the rooms; what stands beside them is the root crate's.
 /// `src/dense` and `src/python` know nothing of rooms.
 pub(crate) const CRATES: [&str; 7] = [

@@ -1,5 +1,6 @@
 //! Statics of planar mechanisms: structure, motion, reactions.
 
+use crate::common::*;
 mod command;
 mod cycle;
 mod enumeration;
@@ -11,8 +12,6 @@ mod reactions;
 mod stability;
 mod structure;
 
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::statics::planar::{PairId, PlanarMechanism};
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! Tables say what they leave out, and one name stands for one thing.
 
-use crate::common::{has, out, ozols, run_on};
+use crate::common::*;
 use crate::robots::{folder, legs};
 
 /// The rows of a table after a head that begins with `first`.
@@ -67,9 +67,9 @@ fn long_tables_of_mobilities_are_folded() {
 /// What is told of robots with long names fits the width that OZOLS_WIDTH says, and standard error stays silent with -q.
 #[test]
 fn texts_of_robots_fit() {
-    let folder_of_own = tempfile::tempdir().unwrap();
+    let folder_of_own = tempdir().unwrap();
     let legs_file = folder_of_own.path().join("legs.xml");
-    std::fs::write(&legs_file, legs(3)).unwrap();
+    fs::write(&legs_file, legs(3)).unwrap();
     for file in [
         legs_file,
         folder().join("gripper.xml"),

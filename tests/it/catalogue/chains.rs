@@ -1,8 +1,7 @@
 //! Kinematic chains and the grippers made of them, against the counts of independent programs (two generators, two filters,
 //! two canonical forms; OEIS A233288) and against a slow twin that tries every graph.
 
-use crate::common::{built_in, json, ozols, text};
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::census::{Census, Counted, DriveKind, census};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::{chains, count_chains};
@@ -10,9 +9,7 @@ use ozols::chains::graph6::{self, Graph6Error};
 use ozols::chains::layout_symmetry::working_swap;
 use ozols::chains::roles::{Roles, Subject};
 use ozols::chains::{Input, Symmetry};
-use ozols::model::mechanism::{Role, StateId};
 use proptest::prelude::*;
-use std::collections::BTreeSet;
 
 #[test]
 fn as_many_chains_as_are_known() {
@@ -305,55 +302,22 @@ fn texts_that_are_no_chains_are_refused() {
 
 #[test]
 fn the_command_counts_and_lists() {
-    let o = ozols(&["catalog", "count"]).output().unwrap();
-    let out = text(&o.stdout);
-    assert!(o.status.success());
-    for row in ["grippers of two jaws", "1,356", "4 links", "8 links"] {
-        assert!(out.contains(row), "{out}");
-    }
-    let all = json(&["catalog", "count", "--links", "6..9", "--format", "json"]);
-    let rows = all.as_array().unwrap();
-    assert_eq!(
-        (rows.len(), rows[1]["three_jaws"].as_u64()),
-        (2, Some(2656))
+    let counted = out("catalog count");
+    has_all(
+        &counted,
+        &["grippers of two jaws", "1,356", "4 links", "8 links"],
     );
-    let o = ozols(&["catalog", "count", "--chains", "--links", "10..12"])
-        .output()
-        .unwrap();
-    let out = text(&o.stdout);
-    let table: Vec<_> = out.lines().take_while(|l| !l.is_empty()).collect();
-    assert_eq!(table.len(), 3, "chains alone: {out}");
-    assert!(table[2].contains("230") && table[2].contains("6,856"));
-    let listed = json(&["catalog", "chains", "--links", "6", "--format", "json"]);
-    let drives = listed
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|c| c["drives"].as_u64().unwrap());
+    let rows = json("catalog count --links 6..9 --format json");
+    assert_eq!(rows.list().len(), 2);
+    assert_eq!(rows[1]["three_jaws"], 2656);
+    let counted = out("catalog count --chains --links 10..12");
+    let table = counted.lines().take_while(|l| !l.is_empty()).collect_vec();
+    assert_eq!(table.len(), 3, "chains alone: {counted}");
+    has_all(table[2], &["230", "6,856"]);
+    let listed = json("catalog chains --links 6 --format json");
+    let drives = listed.list().iter().map(|c| c["drives"].whole());
     assert_eq!(drives.sum::<u64>(), 9);
-    let o = ozols(&["catalog", "chains", "--links", "6", "--format", "csv"])
-        .output()
-        .unwrap();
-    assert_eq!(text(&o.stdout).lines().count(), 3);
-    for (bad, said) in [
-        (
-            &["catalog", "count", "--links", "9..6"][..],
-            "smaller number",
-        ),
-        (&["catalog", "count", "--links", "many"], "4..10"),
-        (
-            &["catalog", "chains", "--links", "16"],
-            "catalog count --links 16",
-        ),
-        (&["catalog", "chains", "--links", "7"], "mobility 1"),
-        (&["catalog", "count", "--mobility", "0"], "--mobility"),
-    ] {
-        let o = ozols(bad).output().unwrap();
-        assert_eq!(o.status.code(), Some(2), "{bad:?}");
-        assert!(text(&o.stderr).contains(said), "{}", text(&o.stderr));
-    }
-    let none = ozols(&["catalog", "count", "--links", "7"])
-        .output()
-        .unwrap();
-    assert_eq!(none.status.code(), Some(1));
+    let listed = out("catalog chains --links 6 --format csv");
+    assert_eq!(listed.lines().count(), 3);
+    assert_eq!(ran("catalog count --links 7").0, Some(1));
 }

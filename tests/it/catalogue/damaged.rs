@@ -1,11 +1,9 @@
 //! Catalogues that are damaged: bytes changed, pages lost. SQLite's own check says which of them no command may take.
 
 use super::carried_on::scattered;
-use super::command::{at, ok};
-use crate::common::{fresh, run, text};
+use super::command::at;
+use crate::common::*;
 use rusqlite::Connection;
-use std::fs;
-use tempfile::tempdir;
 
 /// Bytes of a page of a catalogue.
 const PAGE: usize = 8192;
@@ -56,9 +54,7 @@ fn what_fails_the_quick_check_is_refused_by_every_command() {
         "catalog", "build", "--links", "4", "--ideas", "2", "--quiet", "-o",
     ];
     ok(&[&build[..], &[&good]].concat());
-    ok(&[
-        "catalog", "search", "four-bar", "--ideas", "2", "-q", "-o", &good,
-    ]);
+    ok(&format!("catalog search four-bar --ideas 2 -q -o {good}"));
     let bytes = fs::read(&good).unwrap();
     let ids = "SELECT structure FROM layouts LIMIT 1";
     let id = ok(&["catalog", "query", &good, ids, "--format", "csv"]);

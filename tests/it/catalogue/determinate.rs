@@ -1,8 +1,7 @@
 //! Determinate variants of chains at generic places, as published, and by the twin that splits freedoms into trees.
 
 use super::{each, form, generic, layout, out_of_plane};
-use itertools::Itertools;
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::Request;
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;

@@ -1,11 +1,10 @@
 //! `ozols catalog find`: the structure of a drawn mechanism, what it is known as, and where a catalogue has it.
 
-use crate::common::{built_in, json, ozols, text};
+use super::command::{at, lines};
+use super::rows::all_of_six;
+use crate::common::*;
 use ozols::chains::classics::classics;
 use ozols::synthesis::recognize::{NoStructure, recognize};
-use serde_json::Value;
-use std::fs;
-use std::path::Path;
 
 /// Mechanisms of known schemes, as far as they are built in.
 #[test]
@@ -21,11 +20,9 @@ fn built_in_grippers_are_what_they_are_known_as() {
         assert!(known.iter().any(|c| c["id"] == id), "{name}: {known:?}");
     }
     // None of these, so that the exit code is 1.
-    let o = ozols(&["catalog", "find", "gripper-10", "--json"])
-        .output()
-        .unwrap();
-    assert_eq!(o.status.code(), Some(1));
-    let data: Value = serde_json::from_str(&text(&o.stdout)).unwrap();
+    let (code, told, _) = ran("catalog find gripper-10 --json");
+    assert_eq!(code, Some(1));
+    let data: Value = serde_json::from_str(&told).unwrap();
     assert_eq!(data["links"], 10);
     assert_eq!([&data["hinges"], &data["slides"]], [12, 1]);
     assert_eq!([&data["mirror"], &data["essential"]], [true, true]);
@@ -70,92 +67,47 @@ fn every_scheme_has_a_name_of_its_own() {
     }
 }
 
-const SLOT_GRIPPER: &str = r#"
-name = "slotted"
-length_unit = "mm"
-[[link]]
-id = "frame"
-role = "frame"
-[[link]]
-id = "piston"
-[[link]]
-id = "upper"
-role = "output"
-[[link]]
-id = "lower"
-role = "output"
-[[joint]]
-id = "drive"
-links = ["frame", "piston"]
-type = "prismatic"
-point = [0, 0, 0]
-axis = [1, 0, 0]
-drive = true
-[[joint]]
-id = "a"
-links = ["piston", "upper"]
-type = "slotted"
-point = [20, 5, 0]
-axis = [0, 0, 1]
-reference = [1, 2, 0]
-[[joint]]
-id = "b"
-links = ["piston", "lower"]
-type = "slotted"
-point = [20, -5, 0]
-axis = [0, 0, 1]
-reference = [1, -2, 0]
-[[joint]]
-id = "c"
-links = ["frame", "upper"]
-type = "spherical"
-point = [30, 15, 0]
-axis = [0, 0, 1]
-[[joint]]
-id = "d"
-links = ["frame", "lower"]
-type = "revolute"
-point = [30, -15, 0]
-axis = [0, 0, 1]
-"#;
-
-fn written(name: &str, text: &str) -> String {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("find");
-    fs::create_dir_all(&folder).unwrap();
-    let path = folder.join(name);
-    fs::write(&path, text).unwrap();
-    path.to_str().unwrap().to_owned()
+fn slot_gripper() -> String {
+    let joints = "
+        drive | frame piston | prismatic | 0, 0, 0 | 1, 0, 0 | drive = true
+        a | piston upper | slotted | 20, 5, 0 | 0, 0, 1 | reference = [1, 2, 0]
+        b | piston lower | slotted | 20, -5, 0 | 0, 0, 1 | reference = [1, -2, 0]
+        c | frame upper | spherical | 30, 15, 0 | 0, 0, 1
+        d | frame lower | revolute | 30, -15, 0 | 0, 0, 1";
+    file_of(
+        "name = \"slotted\"\nlength_unit = \"mm\"",
+        "frame piston upper* lower*",
+        joints,
+    )
 }
 
 #[test]
 fn a_pin_in_a_slot_is_a_slot_and_a_ball_a_hinge() {
-    let file = written("slot.toml", SLOT_GRIPPER);
-    let o = ozols(&["catalog", "find", &file]).output().unwrap();
-    let out = text(&o.stdout);
-    assert!(out.contains("4 links, 2 hinges, 1 slide, 2 slots"), "{out}");
-    assert!(out.contains("Known as wedge-levers"), "{out}");
-    assert!(out.contains("Symmetric layouts: mirror."), "{out}");
+    let (_folder, file) = written("slot.toml", slot_gripper());
+    let found = json(&["catalog", "find", file, "--json"]);
+    let counts = ["links", "hinges", "slides", "slots"].map(|key| &found[key]);
+    assert_eq!(counts, [4, 2, 1, 2]);
+    assert!(
+        found["classics"]
+            .list()
+            .iter()
+            .any(|c| c["id"] == "wedge-levers")
+    );
+    assert_eq!(found["mirror"], true);
 }
 
 #[test]
 fn what_is_no_structure_says_why() {
-    let undriven = SLOT_GRIPPER.replace("drive = true", "");
-    let one_jaw = SLOT_GRIPPER.replacen("role = \"output\"", "", 1);
-    let wide = SLOT_GRIPPER.replacen("type = \"slotted\"", "type = \"planar\"", 1);
-    for (name, bad, said) in [
-        ("undriven.toml", &undriven, "0 joints are driven"),
-        ("one_jaw.toml", &one_jaw, "1 links are outputs"),
-        (
-            "wide.toml",
-            &wide,
-            "joint \"a\" leaves 1 turns and 2 slides",
-        ),
-    ] {
-        let file = written(name, bad);
-        let o = ozols(&["catalog", "find", &file]).output().unwrap();
-        assert_eq!(o.status.code(), Some(2), "{name}");
-        let told = text(&o.stderr);
-        assert!(told.contains(said) && told.contains(name), "{told}");
+    for [from, to, says] in cases::<3>(
+        r#"
+        drive = true |  | 0 joints are driven
+        role = "output" |  | 1 links are outputs
+        type = "slotted" | type = "planar" | joint "a" leaves 1 turns and 2 slides
+        "#,
+    ) {
+        let (_folder, file) = written("none.toml", changed(&slot_gripper(), from, to));
+        fails(&["catalog", "find", file], says);
+        fails(&["catalog", "find", file], "none.toml");
     }
     // Four hinges with no plane in common.
     let bennett = recognize(&built_in("bennett"));
@@ -165,38 +117,20 @@ fn what_is_no_structure_says_why() {
 /// What a catalogue laid out is found in it again, under its own name and in each of its forms.
 #[test]
 fn a_catalogue_has_what_it_laid_out() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("find");
-    fs::create_dir_all(&folder).unwrap();
-    let db = folder.join("six.db");
-    let _ = fs::remove_file(&db);
-    let db = db.to_str().unwrap();
-    let built = [
-        "catalog",
-        "build",
-        "--links",
-        "6",
-        "--symmetry",
-        "mirror",
-        "-o",
-        db,
-    ];
-    assert!(ozols(&built).output().unwrap().status.success());
-    let laid_out = "SELECT id FROM structures JOIN layouts ON structure = id";
-    let rows = json(&["catalog", "query", db, laid_out, "--format", "json"]);
-    let rows = rows.as_array().unwrap();
-    assert!(!rows.is_empty());
-    for row in rows {
-        let id = row["id"].as_str().unwrap();
-        let file = folder.join(format!("{id}.toml"));
-        let file = file.to_str().unwrap();
-        let exported = ["catalog", "export", db, id, "-o", file];
-        assert!(ozols(&exported).output().unwrap().status.success());
-        let data = json(&["catalog", "find", file, "--in", db, "--json"]);
-        let found = data["catalogue"].as_array().unwrap();
-        assert!(found.iter().any(|e| e["id"] == id), "{id}: {data}");
+    let (folder, db) = (tempdir().unwrap(), all_of_six());
+    let laid =
+        "SELECT structure FROM layouts JOIN structures ON id = structure WHERE symmetry = 'mirror'";
+    let ids = lines(db, laid);
+    assert!(!ids.is_empty());
+    for id in &ids {
+        let file = at(&folder, &format!("{id}.toml"));
+        ok(&["catalog", "export", db, id, "-o", &file]);
+        let data = json(&["catalog", "find", &file, "--in", db, "--json"]);
+        assert!(
+            data["catalogue"].list().iter().any(|e| e["id"] == **id),
+            "{id}: {data}"
+        );
     }
-    let o = ozols(&["catalog", "find", "geared-gripper", "--in", db])
-        .output()
-        .unwrap();
-    assert!(text(&o.stdout).contains("does not have it"));
+    let (_, told, _) = ran(&["catalog", "find", "geared-gripper", "--in", db]);
+    has(&told, "does not have it");
 }

@@ -1,14 +1,12 @@
 //! Layouts that are called generic are in general position: none has fewer determinate variants than its chain and input have.
 
 use super::{Drawn, each, form, layout, out_of_plane, plain};
-use crate::common::fresh;
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::Request;
 use ozols::catalog::row::row;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
 use ozols::score::request::List;
-use std::collections::BTreeMap;
 
 /// Every so many generic structures of eight links, laid out from a seed: the row counts what the twin counts at places of its own, and
 /// what a search of the row's own file counts, which knows nothing of other layouts. Gives how many are off the whole millimetres.

@@ -4,33 +4,35 @@
 //! many places, all that there are and further ones in greater catalogues; a few of each command by default.
 
 use super::carried_on::scattered;
-use super::command::{at, ok, small};
-use crate::common::text;
+use super::command::{at, small};
+use crate::common::*;
 use ozols::catalog::store::Store;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use tempfile::{TempDir, tempdir};
+use std::process::{Command, Stdio};
 
 /// The structures of four links, each a transaction.
-fn tiny<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    let words = ["catalog", "build", "--links", "4", "--ideas", "1"];
-    let rest = ["--threads", "1", "--quiet", "-o", file];
-    [&words[..], &rest, more].concat()
+fn tiny(file: &str, more: &str) -> String {
+    format!("catalog build --links 4 --ideas 1 --threads 1 --quiet -o {file} {more}")
+}
+
+/// A command without its output, not begun yet.
+#[cfg(unix)]
+fn quiet(line: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
+    command
+        .args(words(line))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command
 }
 
 /// What kills a process at a write.
 #[cfg(target_os = "linux")]
 fn killer(folder: &TempDir) -> PathBuf {
-    let (source, made) = (
-        folder.path().join("killed.c"),
-        folder.path().join("killed.so"),
-    );
+    let [source, made] = ["killed.c", "killed.so"].map(|n| folder.path().join(n));
     fs::write(&source, include_str!("killed.c")).unwrap();
     let mut cc = Command::new("cc");
     cc.args(["-shared", "-fPIC", "-O1", "-o"])
-        .arg(&made)
-        .arg(&source)
+        .args([&made, &source])
         .arg("-ldl");
     assert!(cc.status().unwrap().success());
     made
@@ -38,20 +40,17 @@ fn killer(folder: &TempDir) -> PathBuf {
 
 /// Runs a command that is killed at a write; whether it was.
 #[cfg(target_os = "linux")]
-fn killed_at(killer: &Path, args: &[&str], write: usize) -> bool {
-    use std::os::unix::process::ExitStatusExt;
-    let status = Command::new(env!("CARGO_BIN_EXE_ozols"))
-        .args(args)
+fn killed_at(killer: &Path, line: &str, write: usize) -> bool {
+    use std::os::unix::process::ExitStatusExt as _;
+    let mut command = quiet(line);
+    command
         .env("LD_PRELOAD", killer)
-        .env("OZOLS_KILL_AT", write.to_string())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status()
-        .unwrap();
+        .env("OZOLS_KILL_AT", write.to_string());
+    let status = command.status().unwrap();
     match status.signal() {
         Some(9) => true,
         None if status.success() => false,
-        _ => panic!("{args:?}, write {write}: {status}"),
+        _ => panic!("{line}, write {write}: {status}"),
     }
 }
 
@@ -64,27 +63,20 @@ fn places(by_default: usize) -> usize {
 /// Kills a command at writes from the first to the last, or at as many places as are asked for, and each time lets it be
 /// carried on. What it then holds is what it holds where nothing was killed.
 #[cfg(target_os = "linux")]
-fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> Vec<String>) {
+fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> String) {
     let folder = tempdir().unwrap();
     let killer = killer(&folder);
-    let words = |file: &str| -> Vec<String> { command(file) };
-    let run = |file: &str| {
-        let all = words(file);
-        ok(&all.iter().map(String::as_str).collect::<Vec<_>>());
-    };
     let plain = at(&folder, "plain.db");
-    run(&plain);
+    ok(&command(&plain));
     let wanted = held(&plain);
     // The places among the first writes, where it is made, are all taken.
     let last = {
         let file = at(&folder, "counted.db");
-        let all = words(&file);
-        let all: Vec<&str> = all.iter().map(String::as_str).collect();
         let (mut low, mut high) = (1_usize, 1 << 12);
         while low < high {
             let middle = (low + high).div_ceil(2);
             remove(&file);
-            if killed_at(&killer, &all, middle) {
+            if killed_at(&killer, &command(&file), middle) {
                 low = middle
             } else {
                 high = middle - 1
@@ -99,23 +91,20 @@ fn wherever_it_is_killed(some: usize, command: &dyn Fn(&str) -> Vec<String>) {
     for write in first.chain(more).take(places) {
         let file = at(&folder, "killed.db");
         remove(&file);
-        let all = words(&file);
-        let all: Vec<&str> = all.iter().map(String::as_str).collect();
         // Rows come as threads make them, so that one run writes a little less often than another.
-        let killed = killed_at(&killer, &all, write);
+        let killed = killed_at(&killer, &command(&file), write);
         assert!(killed || write > last / 2, "{write} of {last}");
         // Every third time it is killed again while it carries on, early.
         if write % 3 == 0 {
-            let _ = killed_at(&killer, &all, 1 + write % 7);
+            let _ = killed_at(&killer, &command(&file), 1 + write % 7);
         }
         // Whoever looks in between is told what is there, or that nothing is.
         if write % 5 == 0 && Path::new(&file).exists() {
-            let o = crate::common::run(&["catalog", "query", &file]);
-            let said = text(&o.stderr);
-            let answered = matches!(o.status.code(), Some(0 | 1));
+            let (code, _, said) = ran(&["catalog", "query", &file]);
+            let answered = matches!(code, Some(0 | 1));
             assert!(answered || said.contains("is empty"), "{write}: {said}");
         }
-        run(&file);
+        ok(&command(&file));
         assert!(held(&file) == wanted, "killed at write {write} of {last}");
         taken += usize::from(killed);
     }
@@ -144,57 +133,44 @@ fn remove(file: &str) {
     }
 }
 
-fn owned(words: &[&str]) -> Vec<String> {
-    words.iter().map(|w| (*w).to_owned()).collect()
-}
-
 /// Once refused: after a kill at one of nine of 107 writes the same command said that its file was no catalogue.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_build_carries_on_wherever_it_is_killed() {
-    wherever_it_is_killed(40, &|file| owned(&tiny(file, &[])));
+    wherever_it_is_killed(40, &|file| tiny(file, ""));
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_search_carries_on_wherever_it_is_killed() {
     let words = "catalog search four-bar four-bar-planar --ideas 1 --threads 1 --quiet -o";
-    wherever_it_is_killed(40, &|file| {
-        let words: Vec<&str> = words.split(' ').chain([file]).collect();
-        owned(&words)
-    });
+    wherever_it_is_killed(40, &|file| format!("{words} {file}"));
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_merge_carries_on_wherever_it_is_killed() {
     let folder = tempdir().unwrap();
-    let parts = ["1/3", "2/3", "3/3"].map(|part| {
-        let file = at(&folder, &format!("{}.db", &part[..1]));
-        ok(&tiny(&file, &["--shard", part]));
+    let parts = [1, 2, 3].map(|part| {
+        let file = at(&folder, &format!("{part}.db"));
+        ok(&tiny(&file, &format!("--shard {part}/3")));
         file
     });
-    wherever_it_is_killed(40, &|file| {
-        let words = [
-            "catalog", "merge", &parts[0], &parts[1], &parts[2], "-o", file,
-        ];
-        owned(&words)
-    });
+    let parts = parts.join(" ");
+    wherever_it_is_killed(40, &|file| format!("catalog merge {parts} -o {file}"));
 }
 
 /// Starts as many commands as files are named, and waits for all.
-fn at_once(all: &[Vec<&str>]) -> Vec<Output> {
-    let started: Vec<_> = all
-        .iter()
-        .map(|args| {
-            Command::new(env!("CARGO_BIN_EXE_ozols"))
-                .args(args)
-                .stdout(Stdio::piped())
-                .stderr(Stdio::piped())
-                .spawn()
-                .unwrap()
-        })
-        .collect();
+fn at_once(all: &[String]) -> Vec<Output> {
+    let start = |line: &String| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ozols"));
+        command
+            .args(words(line))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command.spawn().unwrap()
+    };
+    let started = all.iter().map(start).collect_vec();
     let ended = started.into_iter().map(|c| c.wait_with_output().unwrap());
     ended.collect()
 }
@@ -204,7 +180,7 @@ fn at_once(all: &[Vec<&str>]) -> Vec<Output> {
 fn one_to_eight_may_make_a_catalogue_at_once() {
     let folder = tempdir().unwrap();
     let plain = at(&folder, "plain.db");
-    ok(&tiny(&plain, &[]));
+    ok(&tiny(&plain, ""));
     let wanted = held(&plain);
     let trials = match std::env::var_os("OZOLS_KILLS") {
         Some(_) => 20,
@@ -212,7 +188,7 @@ fn one_to_eight_may_make_a_catalogue_at_once() {
     };
     for (n, trial) in (1..=8).flat_map(|n| (0..trials).map(move |t| (n, t))) {
         let file = at(&folder, &format!("{n}-{trial}.db"));
-        for o in at_once(&vec![tiny(&file, &[]); n]) {
+        for o in at_once(&vec![tiny(&file, ""); n]) {
             assert_eq!(o.status.code(), Some(0), "{n} at once: {}", text(&o.stderr));
         }
         assert!(held(&file) == wanted, "{n} at once");
@@ -223,32 +199,26 @@ fn one_to_eight_may_make_a_catalogue_at_once() {
 #[test]
 fn different_commands_may_make_a_catalogue_at_once() {
     let folder = tempdir().unwrap();
-    let part = at(&folder, "part.db");
-    ok(&tiny(&part, &["--shard", "3/3"]));
-    let file = at(&folder, "all.db");
-    let line = "catalog search four-bar --ideas 1 --quiet -o";
-    let search: Vec<&str> = line.split(' ').chain([file.as_str()]).collect();
+    let [part, file, plain] = ["part.db", "all.db", "plain.db"].map(|n| at(&folder, n));
+    ok(&tiny(&part, "--shard 3/3"));
+    let search = |file: &str| format!("catalog search four-bar --ideas 1 --quiet -o {file}");
     let outputs = at_once(&[
-        tiny(&file, &["--shard", "1/3"]),
-        tiny(&file, &["--shard", "2/3"]),
-        search.clone(),
-        vec!["catalog", "merge", &part, "-o", &file],
+        tiny(&file, "--shard 1/3"),
+        tiny(&file, "--shard 2/3"),
+        search(&file),
+        format!("catalog merge {part} -o {file}"),
     ]);
-    for o in &outputs[..3] {
-        assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
-    }
     // The merge may come when the parts are not finished, and says so then.
-    assert!(
-        matches!(outputs[3].status.code(), Some(0 | 1)),
-        "{}",
-        text(&outputs[3].stderr)
-    );
-    let plain = at(&folder, "plain.db");
-    ok(&tiny(&plain, &[]));
-    ok(&search
-        .iter()
-        .map(|w| if *w == file { plain.as_str() } else { w })
-        .collect::<Vec<_>>());
+    for (n, o) in outputs.iter().enumerate() {
+        let code = o.status.code();
+        assert!(
+            code == Some(0) || n == 3 && code == Some(1),
+            "{}",
+            text(&o.stderr)
+        );
+    }
+    ok(&tiny(&plain, ""));
+    ok(&search(&plain));
     let rows = |file: &str| held(file).split_once("\n").unwrap().1.to_owned();
     assert!(rows(&file) == rows(&plain));
 }
@@ -258,27 +228,17 @@ fn different_commands_may_make_a_catalogue_at_once() {
 #[test]
 fn some_of_several_may_be_killed() {
     let folder = tempdir().unwrap();
-    let plain = at(&folder, "plain.db");
-    ok(&small(&plain, &[]));
-    let wanted = held(&plain);
-    let file = at(&folder, "some.db");
+    let [plain, file] = ["plain.db", "some.db"].map(|n| at(&folder, n));
+    ok(&small(&plain, ""));
     for wait in scattered(11).take(6) {
-        let mut all: Vec<_> = (0..3)
-            .map(|_| {
-                Command::new(env!("CARGO_BIN_EXE_ozols"))
-                    .args(small(&file, &["--threads", "1"]))
-                    .stdout(Stdio::null())
-                    .stderr(Stdio::null())
-                    .spawn()
-                    .unwrap()
-            })
-            .collect();
+        let start = |_| quiet(&small(&file, "--threads 1")).spawn().unwrap();
+        let mut all = (0..3).map(start).collect_vec();
         std::thread::sleep(std::time::Duration::from_millis(wait % 250));
         for child in &mut all {
             let _ = child.kill();
             child.wait().unwrap();
         }
     }
-    ok(&small(&file, &[]));
-    assert!(held(&file) == wanted);
+    ok(&small(&file, ""));
+    assert!(held(&file) == held(&plain));
 }

@@ -1,16 +1,11 @@
 //! What of a catalogue is next to a gripper, against every way of taking two links out.
 
-use super::command::ok;
 use super::rows::all_of_six;
-use crate::common::{built_in, json};
-use itertools::Itertools;
+use crate::common::*;
 use ozols::catalog::neighbours::{FIGURES, neighbours};
 use ozols::catalog::store::Store;
 use ozols::chains::structure::PairStructure;
-use ozols::file::text::mechanism_from_str;
 use ozols::synthesis::recognize::recognize;
-use std::collections::BTreeMap;
-use std::path::Path;
 
 /// Whether a small structure is a large one without two links in a row: all ways to place the small one's links on the large one's.
 fn is_left(small: &PairStructure, large: &PairStructure) -> bool {

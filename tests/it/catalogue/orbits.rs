@@ -1,21 +1,15 @@
 //! Counts up to the symmetry of a layout, against a list of all variants whose images are found from the places of the joints.
 
-use super::command::{at, ok};
+use super::command::{at, lines};
 use super::three_jaws::third;
 use super::{each_of, form, plain};
-use num_bigint::BigUint;
+use crate::common::*;
 use ozols::catalog::row::row;
 use ozols::catalog::spec::Spec;
 use ozols::chains::{Input, Symmetry};
-use ozols::geom::vector::real;
-use ozols::model::mechanism::Mechanism;
-use ozols::redundancy::analysis::exact_field;
-use ozols::search::Search;
 use ozols::search::answer::orbit_counts::orbit_counts;
 use ozols::search::answer::search_counts::SearchCounts;
-use ozols::search::question::conditions::{Conditions, Symmetry as Asked};
-use std::collections::{BTreeMap, BTreeSet};
-use tempfile::tempdir;
+use ozols::search::question::conditions::Symmetry as Asked;
 
 /// For each joint the one that stands where the symmetry carries it.
 fn images(m: &Mechanism, carry: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<usize> {
@@ -143,74 +137,44 @@ fn orbits_are_those_of_a_list_of_all_variants() {
 fn a_file_says_what_a_turn_carries_round() {
     let folder = tempdir().unwrap();
     let (db, file) = (at(&folder, "g.db"), at(&folder, "m.toml"));
-    ok(&[
-        "catalog",
-        "build",
-        "--links",
-        "6",
-        "--symmetry",
-        "half-turn",
-        "--parallel",
-        "without",
-        "--ideas",
-        "1",
-        "--quiet",
-        "-o",
-        &db,
-    ]);
+    ok(&format!(
+        "catalog build --links 6 --symmetry half-turn --parallel without --ideas 1 --quiet -o {db}"
+    ));
     let sql = "SELECT id, determinate_w1, orbits_w1 FROM structures JOIN layouts ON structure = id ORDER BY id LIMIT 1";
-    let line = ok(&["catalog", "query", &db, sql, "--format", "csv"]);
-    let row: Vec<&str> = line.lines().nth(1).unwrap().split(',').collect();
+    let line = &lines(&db, sql)[0];
+    let row = line.split(',').collect_vec();
     ok(&["catalog", "export", &db, row[0], "-o", &file]);
-    let counts = |more: &str| -> String {
-        let args = [
-            "search",
-            &file,
-            "--max-mobility",
-            "1",
-            "--allow-output-change",
-            "--quiet",
-            "--format",
-            "json",
-        ];
-        let more = Some(more).filter(|m| !m.is_empty());
-        let found = ok(&args.into_iter().chain(more).collect::<Vec<_>>());
-        let found: serde_json::Value = serde_json::from_str(&found).unwrap();
-        found["admissible"].as_str().unwrap().to_owned()
+    let counts = |more: &str| {
+        json(&format!(
+            "search {file} --max-mobility 1 --allow-output-change --quiet --format json {more}"
+        ))["admissible"]
+            .clone()
     };
-    assert_eq!(
-        (counts("").as_str(), counts("--one-per-orbit").as_str()),
-        (row[1], row[2])
+    assert_eq!([counts(""), counts("--one-per-orbit")], [row[1], row[2]]);
+    has(
+        &ok(&["catalog", "show", &db, row[0]]),
+        "up to half-turn images",
     );
-    let shown = ok(&["catalog", "show", &db, row[0]]);
-    assert!(shown.contains("up to half-turn images"), "{shown}");
     // A file that groups wrong joints is told so, and one that groups them wrongly.
-    let text = std::fs::read_to_string(&file).unwrap();
+    let text = fs::read_to_string(&file).unwrap();
     let begin = text.find("turn = [").unwrap();
     let end = begin + text[begin..].find("\n\n").unwrap();
     let names: Vec<&str> = text[begin..end].split('"').skip(1).step_by(2).collect();
-    let with = |turn: &str| {
-        let wrong = at(&folder, "wrong.toml");
-        std::fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
-        let o = crate::common::run(&["search", &wrong, "--one-per-orbit"]);
-        (o.status.code(), crate::common::text(&o.stderr))
+    let [a, b, c, d] = names[..4] else {
+        panic!("{names:?}")
     };
-    let (code, told) = with(&format!("turn = [[\"{}\", \"{}\"]]", names[0], names[2]));
-    assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("image"), "{told}");
-    let (code, told) = with(&format!("turn = [[\"{}\"]]", names[0]));
-    assert!(
-        code == Some(2) && told.contains("write pairs for half a turn"),
-        "{told}"
-    );
-    let (code, told) = with(&format!(
-        "turn = [[\"{0}\", \"{1}\"]]\nmirror = [[\"{2}\", \"{3}\"]]",
-        names[0], names[1], names[2], names[3]
-    ));
-    assert!(
-        code == Some(2) && told.contains("keep one of them"),
-        "{told}"
-    );
+    for (turn, says) in [
+        (format!("turn = [[\"{a}\", \"{c}\"]]"), "image"),
+        (format!("turn = [[\"{a}\"]]"), "write pairs for half a turn"),
+        (
+            format!("turn = [[\"{a}\", \"{b}\"]]\nmirror = [[\"{c}\", \"{d}\"]]"),
+            "keep one of them",
+        ),
+    ] {
+        let wrong = at(&folder, "wrong.toml");
+        fs::write(&wrong, format!("{}{turn}{}", &text[..begin], &text[end..])).unwrap();
+        fails(&format!("search {wrong} --one-per-orbit"), says);
+    }
 }
 
 /// Necklaces of two and of three beads, turned until all are back in place: counted one by one, and from those that a turn keeps.
@@ -226,7 +190,7 @@ fn orbits_are_those_of_necklaces() {
                 let turned = |k: usize| [&beads[k..], &beads[..k]].concat();
                 (0..order).map(turned).min()
             };
-            let necklaces: std::collections::BTreeSet<_> = (0..all).map(least).collect();
+            let necklaces: BTreeSet<_> = (0..all).map(least).collect();
             let kept = (0..all).filter(|&n| beads(n).all(|b| Some(b) == beads(n).next()));
             let found = orbits(&all.into(), &kept.count().into(), order);
             assert_eq!(found, necklaces.len().into(), "{order} {colours}");

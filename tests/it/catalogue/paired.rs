@@ -1,31 +1,27 @@
 //! Layouts with slides, gears and slots, against the statics of their own files over the whole stroke, which solve contours of
 //! joints in space.
 
+use crate::common::*;
 mod axial;
 mod by_hand;
 mod flat;
 mod made;
 mod passing;
 mod strongest;
-mod three_generic;
-mod twin_figures;
+pub(super) mod three_generic;
+pub(super) mod twin_figures;
 
 use super::carried_on::scattered;
-use super::command::{at, fails, ok, whole};
+use super::command::{at, lines, rows};
 use super::pairs::classics::schemes;
 use super::pairs::menu;
-use crate::common::{run, text};
 use ozols::chains::structure::PairStructure;
 use ozols::synthesis::listed::symmetric_structures;
-use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::OnceLock;
-use tempfile::{TempDir, tempdir};
 
 /// A catalogue, built once.
-type Built = OnceLock<(TempDir, String)>;
+pub(super) type Built = OnceLock<(TempDir, String)>;
 
-fn built(once: &'static Built, words: &[&str]) -> &'static str {
+pub(super) fn built(once: &'static Built, words: &[&str]) -> &'static str {
     let (_, file) = once.get_or_init(|| {
         let folder = tempdir().unwrap();
         let file = at(&folder, "grippers.db");
@@ -38,27 +34,32 @@ fn built(once: &'static Built, words: &[&str]) -> &'static str {
 /// The well-known schemes.
 fn known() -> &'static str {
     static FILE: Built = OnceLock::new();
-    built(&FILE, &["catalog", "build", "--classics", "--quiet", "-o"])
+    built(&FILE, &words("catalog build --classics --quiet -o"))
 }
 
 /// Those that have three jaws, too.
 fn known_three() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let words = "catalog build --classics --jaws 3 --ideas 1 --quiet -o";
-    built(&FILE, &words.split(' ').collect::<Vec<_>>())
+    let line = "catalog build --classics --jaws 3 --ideas 1 --quiet -o";
+    built(&FILE, &words(line))
 }
 
 /// Every structure of up to five links, and of six with a left and a right pair that is no hinge.
 fn some() -> &'static str {
     static FILE: Built = OnceLock::new();
-    built(&FILE, &PAIRED)
+    built(
+        &FILE,
+        &words(
+            "catalog build --pairs slide,gear,slot --at-most 2 --symmetry mirror,half-turn --links 4..6 --ideas=2 --quiet -o",
+        ),
+    )
 }
 
 /// Every structure of five links with three jaws: a scroll, three racks on a pinion, levers on a disc of cams.
 fn three() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let words = "catalog build --jaws 3 --pairs slide,gear,slot --symmetry threefold --input turn --links 5 --ideas 2 --quiet -o";
-    built(&FILE, &words.split(' ').collect::<Vec<_>>())
+    let line = "catalog build --jaws 3 --pairs slide,gear,slot --symmetry threefold --input turn --links 5 --ideas 2 --quiet -o";
+    built(&FILE, &words(line))
 }
 
 /// What a third of a turn carries to each other is searched as such, and its redesigns are as many by the plain command.
@@ -74,53 +75,18 @@ fn are_images(file: &str) {
         "SELECT id, determinate, orbits_w1 FROM structures JOIN layouts ON structure = id",
     ) {
         let toml = at(&folder, "chuck.toml");
-        ok(&[
-            "catalog",
-            "export",
-            file,
-            row["id"].as_str().unwrap(),
-            "-o",
-            &toml,
-        ]);
-        let found = ok(&[
-            "search",
-            &toml,
-            "--max-mobility",
-            "1",
-            "--quiet",
-            "--format",
-            "json",
-        ]);
-        let found: Value = serde_json::from_str(&found).unwrap();
+        ok(&["catalog", "export", file, row["id"].word(), "-o", &toml]);
+        let found = json(&format!(
+            "search {toml} --max-mobility 1 --quiet --format json"
+        ));
         assert_eq!(
-            found["determinate"].as_str().unwrap(),
+            found["determinate"],
             row["determinate"].to_string(),
             "{row}"
         );
-        let m = ozols::from_toml(&std::fs::read_to_string(&toml).unwrap()).unwrap();
+        let m = ozols::open(&toml).unwrap();
         assert_eq!(m.search.order(), 3);
     }
-}
-
-const PAIRED: [&str; 13] = [
-    "catalog",
-    "build",
-    "--pairs",
-    "slide,gear,slot",
-    "--at-most",
-    "2",
-    "--symmetry",
-    "mirror,half-turn",
-    "--links",
-    "4..6",
-    "--ideas=2",
-    "--quiet",
-    "-o",
-];
-
-fn rows(file: &str, sql: &str) -> Vec<Value> {
-    let json = ok(&["catalog", "query", file, sql, "--format", "json"]);
-    serde_json::from_str(&json).unwrap()
 }
 
 fn number(row: &Value, key: &str) -> f64 {
@@ -154,27 +120,24 @@ fn in_plane(reaction: &Value, flat: bool) -> f64 {
 /// Poses from the drawn one on.
 fn efforts(toml: &str, to: f64, flat: bool) -> Vec<Pulled> {
     const STEPS: u32 = 60;
-    let stroke = format!("0:{to:?}:{STEPS}");
     // Where links lock before the end it gives what is reached, with exit code 1.
-    let json = run(&["statics", toml, "--stroke", &stroke, "--format", "json"]);
-    let told: Value = serde_json::from_str(&text(&json.stdout)).unwrap();
-    let mut out: Vec<Pulled> = told["positions"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|p| {
-            let reactions = p["reactions"].as_array().unwrap();
-            let driven = reactions.iter().find(|r| !r["drive"].is_null()).unwrap();
-            Pulled {
-                drive: number(p, "drive"),
-                effort: number(&driven["drive"], "effort"),
-                joint: reactions
-                    .iter()
-                    .map(|r| in_plane(r, flat))
-                    .fold(0.0, f64::max),
-            }
-        })
-        .collect();
+    let (_, told, _) = ran(&format!(
+        "statics {toml} --stroke 0:{to:?}:{STEPS} --format json"
+    ));
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let pulled = |p: &Value| {
+        let reactions = p["reactions"].list();
+        let driven = reactions.iter().find(|r| !r["drive"].is_null()).unwrap();
+        Pulled {
+            drive: number(p, "drive"),
+            effort: number(&driven["drive"], "effort"),
+            joint: reactions
+                .iter()
+                .map(|r| in_plane(r, flat))
+                .fold(0.0, f64::max),
+        }
+    };
+    let mut out = told["positions"].list().iter().map(pulled).collect_vec();
     out.sort_by(|a, b| a.drive.abs().total_cmp(&b.drive.abs()));
     out
 }
@@ -306,11 +269,12 @@ fn well_known_schemes_stand_in_a_catalogue_by_name() {
         let jaws = all[row["id"].as_str().unwrap()];
         assert_eq!(row["jaws"] == "parallel", jaws == "parallel", "{row}");
     }
-    let shown = ok(&["catalog", "show", known(), &first_of("wedge-hook")]);
-    assert!(shown.contains("Known as wedge-hook"), "{shown}");
-    assert!(shown.contains("5 joints (3 slides, 2 slots)"), "{shown}");
-    let between = ok(&["catalog", "show", known(), &first_of("slot-coupled-jaws")]);
-    assert!(between.contains("(slide against "), "{between}");
+    let shown = |scheme| ok(&["catalog", "show", known(), &first_of(scheme)]);
+    has_all(
+        &shown("wedge-hook"),
+        &["Known as wedge-hook", "5 joints (3 slides, 2 slots)"],
+    );
+    has(&shown("slot-coupled-jaws"), "(slide against ");
 }
 
 fn first_of(scheme: &str) -> String {
@@ -319,75 +283,55 @@ fn first_of(scheme: &str) -> String {
 
 /// The structure of a catalogue that is a scheme.
 fn scheme_in(file: &str, scheme: &str) -> String {
-    let sql = format!("SELECT structure FROM classics WHERE id = '{scheme}'");
-    let found = rows(file, &sql);
-    found[0]["structure"].as_str().unwrap().to_owned()
+    lines(
+        file,
+        &format!("SELECT structure FROM classics WHERE id = '{scheme}'"),
+    )
+    .remove(0)
 }
 
 /// A catalogue finds its own files again.
 #[test]
 fn what_is_exported_is_found() {
     let folder = tempdir().unwrap();
-    for row in rows(known(), "SELECT DISTINCT structure FROM classics") {
-        let id = row["structure"].as_str().unwrap();
+    for id in lines(known(), "SELECT DISTINCT structure FROM classics") {
         let toml = at(&folder, "gripper.toml");
-        ok(&["catalog", "export", known(), id, "-o", &toml]);
-        let found = ok(&["catalog", "find", &toml, "--in", known()]);
-        assert!(found.contains(id), "{id}: {found}");
+        ok(&["catalog", "export", known(), &id, "-o", &toml]);
+        has(&ok(&["catalog", "find", &toml, "--in", known()]), &id);
     }
-}
-
-#[test]
-fn parts_make_the_whole_and_nothing_is_made_twice() {
-    let folder = tempdir().unwrap();
-    let small = |file: &str, more: &[&str]| {
-        let mut words = PAIRED.to_vec();
-        words[9] = "4..5";
-        ok(&[&words[..], &[file], more].concat())
-    };
-    let (one, merged) = (at(&folder, "one.db"), at(&folder, "merged.db"));
-    small(&one, &["--threads", "1"]);
-    let parts = [1, 2, 3].map(|i| {
-        let part = at(&folder, &format!("{i}.db"));
-        small(&part, &["--shard", &format!("{i}/3")]);
-        part
-    });
-    ok(&[
-        "catalog", "merge", &parts[0], &parts[1], &parts[2], "-o", &merged,
-    ]);
-    assert_eq!(whole(&merged), whole(&one));
-    assert!(whole(&one).contains("wedge-levers"));
-    assert!(small(&one, &[]).contains("0 structures added"));
 }
 
 #[test]
 fn what_is_not_laid_out_is_refused() {
     let folder = tempdir().unwrap();
     let file = at(&folder, "none.db");
-    let build = |words: &str, says: &str| {
-        let words = words.split(' ');
-        let all: Vec<&str> = ["catalog", "build"]
-            .into_iter()
-            .chain(words)
-            .chain(["-o", &file])
-            .collect();
-        fails(&all, says);
-        assert!(
-            !std::path::Path::new(&file).exists(),
-            "{words:?}",
-            words = all
-        );
-    };
-    build("--pairs cam", "\"cam\" is none of slide, gear, slot");
-    build("--pairs slide --links 6..9", "8 links at most");
-    build(
-        "--pairs slide --jaws 3 --symmetry generic --links 6",
-        "threefold",
-    );
-    build("--pairs gear --symmetry generic", "mirror or half-turn");
-    build("--pairs gear --at-most 0", "at_most must be from 1 to 12");
-    build("--links 4 --at-most 1", "name them with --pairs");
-    build("--classics --links 4", "cannot be used with");
+    for [words, says] in cases::<2>(
+        "
+        --pairs cam | \"cam\" is none of slide, gear, slot
+        --pairs slide --links 6..9 | 8 links at most
+        --pairs slide --jaws 3 --symmetry generic --links 6 | threefold
+        --pairs gear --symmetry generic | mirror or half-turn
+        --pairs gear --at-most 0 | at_most must be from 1 to 12
+        --links 4 --at-most 1 | name them with --pairs
+        --classics --links 4 | cannot be used with
+        --one-pin only --symmetry half-turn | links meets the conditions
+        --flat-faces only --pairs gear | links meets the conditions
+        --jaws 3 --one-pin only | one_pin: of structures with two jaws alone
+        --classics --one-pin only | cannot be used with
+        --flat-faces maybe --pairs slot | none of with, without, only
+        --generic-pairs | --pairs
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4 --one-pin with | leave it out, or ask for two (--jaws 2)
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4..9 | leave generic_pairs (--generic-pairs) out for more
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 4 --parallel only | each side is in a plane of its own
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 3 | three jaws need at least four links
+        --jaws 3 --generic-pairs --symmetry generic --pairs slide --links 5 | the number of links is even
+        --jaws 3 --generic-pairs --symmetry generic --links 4 | --pairs
+        --jaws 3 --generic-pairs --symmetry threefold --pairs slide | add it (--symmetry generic), or leave generic_pairs (--generic-pairs) out
+        ",
+    ) {
+        fails(&format!("catalog build {words} -o {file}"), says);
+        assert!(!Path::new(&file).exists(), "{words}");
+    }
 }
 
 /// A key says all of a structure, and every structure that is counted moves in some symmetric places.

@@ -1,20 +1,18 @@
 //! Chains of hinges, slides, gears and slots against the counts of two independent programs (`tests/data/README.md`),
 //! against hinged chains, in which a rod is a slot, and against a twin that tries every numbering.
 
+use crate::common::*;
 pub(super) mod classics;
 mod codes;
 mod command;
 mod two_slots;
 
-use crate::common::data;
-use itertools::Itertools;
 use ozols::chains::PairKind;
 use ozols::chains::census::{Census, Counted, DriveKind, Kinds, pair_census};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
 use ozols::chains::sharing::Menu;
 use ozols::chains::symmetric_census::{SymmetricKind, symmetric_census};
-use std::collections::BTreeMap;
 
 pub(super) const ALL: [PairKind; 3] = [PairKind::Slide, PairKind::Gear, PairKind::Slot];
 

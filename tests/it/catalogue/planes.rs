@@ -1,9 +1,9 @@
 //! The planes in which links pass each other, against what meets at poses solved afresh and all ways of stacking links.
 
-use super::dense_twin::{Pose, Twin, carrier, place};
-use super::stroke::poses;
+use super::paired::twin_figures::filed::Gripper;
+use super::stroke::filed;
 use super::{Drawn, each, each_of, form, layout};
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::{Input, Symmetry};
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::stroke::planes::Stacking;
@@ -16,12 +16,12 @@ type Point = [f64; 2];
 type Named = (Result<usize, usize>, Point);
 
 /// The points of a link at a pose.
-fn points(s: &Structure, l: &Drawn, x: &Pose, link: usize) -> Vec<Named> {
-    let pins = l.pins.iter().enumerate().zip(&l.at);
-    let own = pins.filter(|((_, (u, v)), _)| *u == link || *v == link);
-    let own = own.map(|((i, &pin), at)| (Ok(i), place(x, carrier(s, pin), at.real())));
-    let jaw = s.structure.roles.jaws.iter().position(|&j| j == link);
-    let tip = jaw.map(|n| (Err(n), place(x, link, l.tips[n].real())));
+fn points(g: &Gripper, x: &[f64], link: usize) -> Vec<Named> {
+    let pins = g.joints.iter().enumerate();
+    let own = pins.filter(|(_, j)| j.links.contains(&link));
+    let own = own.map(|(i, j)| (Ok(i), g.on(x, j, j.pin)));
+    let jaw = g.jaws.iter().position(|&j| j == link);
+    let tip = jaw.map(|n| (Err(n), g.tip(x, n)));
     own.chain(tip).collect()
 }
 
@@ -77,21 +77,19 @@ struct Met {
 }
 
 impl Met {
-    fn new(s: &Structure, l: &Drawn, all: &[(f64, Pose)], near: f64) -> Met {
-        let (frame, jaws) = (s.structure.roles.frame, &s.structure.roles.jaws);
-        let moving = || (0..s.structure.chain.links()).filter(|k| *k != frame);
+    fn new(g: &Gripper, all: &[Vec<f64>], near: f64) -> Met {
+        let (frame, jaws) = (g.frame, &g.jaws);
+        let moving = || (0..g.links).filter(|k| *k != frame);
         let mut met = Met {
-            overlaps: l
-                .pins
-                .iter()
-                .copied()
-                .filter(|(u, v)| ![u, v].contains(&&frame))
+            overlaps: (g.joints.iter())
+                .filter(|j| !j.links.contains(&frame))
+                .map(|j| j.links.into())
                 .collect(),
             over_pins: Vec::new(),
             over_tips: Vec::new(),
         };
-        for (_, x) in all {
-            let body = |k: usize| points(s, l, x, k);
+        for x in all {
+            let body = |k: usize| points(g, x, k);
             for (k, m) in moving().tuple_combinations() {
                 let sides = |k: usize| {
                     body(k)
@@ -113,8 +111,8 @@ impl Met {
                     met.overlaps.push((k, m));
                 }
             }
-            for (i, (&(u, v), at)) in l.pins.iter().zip(&l.at).enumerate() {
-                let p = place(x, carrier(s, (u, v)), at.real());
+            for (i, j) in g.joints.iter().enumerate() {
+                let ([u, v], p) = (j.links, g.on(x, j, j.pin));
                 for k in moving().filter(|k| ![u, v].contains(k) && off(&body(*k), p) < near) {
                     met.over_pins.push((i, k));
                     met.overlaps
@@ -122,7 +120,7 @@ impl Met {
                 }
             }
             for (n, &jaw) in jaws.iter().enumerate() {
-                let p = place(x, jaw, l.tips[n].real());
+                let p = g.tip(x, n);
                 let others = moving().filter(|k| !jaws.contains(k) && off(&body(*k), p) < near);
                 met.over_tips.extend(others.map(|k| (jaw, k)));
             }
@@ -134,7 +132,7 @@ impl Met {
     }
 
     /// Whether nothing meets with links in these planes, the frame in 0 and, where it is in front too, in `front`.
-    fn passes(&self, l: &Drawn, frame: usize, at: &[usize], front: Option<usize>) -> bool {
+    fn passes(&self, g: &Gripper, at: &[usize], front: Option<usize>) -> bool {
         let blocked = |pin: usize, lo: usize, hi: usize| {
             let mut over = self.over_pins.iter().filter(|(p, _)| *p == pin);
             over.any(|&(_, k)| lo < at[k] && at[k] < hi)
@@ -144,22 +142,22 @@ impl Met {
                 .over_tips
                 .iter()
                 .all(|&(jaw, k)| front.is_none() && at[k] < at[jaw])
-            && l.pins.iter().enumerate().all(|(i, &(u, v))| {
+            && g.joints.iter().enumerate().all(|(i, j)| {
+                let [u, v] = j.links;
                 let (lo, hi) = (at[u].min(at[v]), at[u].max(at[v]));
-                let in_front = front.filter(|_| u == frame || v == frame);
+                let in_front = front.filter(|_| j.links.contains(&g.frame));
                 !blocked(i, lo, hi) || in_front.is_some_and(|f| !blocked(i, hi, f))
             })
     }
 
     /// Whether so many planes can be enough.
-    fn can(&self, s: &Structure, l: &Drawn, planes: usize) -> bool {
-        let (links, frame) = (s.structure.chain.links(), s.structure.roles.frame);
+    fn can(&self, g: &Gripper, planes: usize) -> bool {
         [None, Some(planes - 1)].into_iter().any(|front| {
             let last = front.unwrap_or(planes);
-            let mut ways = (1..links).map(|_| 1..last).multi_cartesian_product();
+            let mut ways = (1..g.links).map(|_| 1..last).multi_cartesian_product();
             ways.any(|mut at| {
-                at.insert(frame, 0);
-                self.passes(l, frame, &at, front)
+                at.insert(g.frame, 0);
+                self.passes(g, &at, front)
             })
         })
     }
@@ -168,9 +166,8 @@ impl Met {
 /// What is told passes with a millimetre less room, and nothing in fewer planes does with a millimetre more.
 fn is_as_the_twin_says(s: &Structure, l: &Drawn) -> Stacking {
     let f = figures(s, l).unwrap();
-    let twin = Twin { s, l };
-    let all = poses(&twin, &f);
-    let frame = s.structure.roles.frame;
+    let g = &filed(s, l);
+    let all = g.stroke(f.openings[0], f.openings[1]);
     match &f.stacking {
         Stacking::Planes {
             planes,
@@ -182,27 +179,27 @@ fn is_as_the_twin_says(s: &Structure, l: &Drawn) -> Stacking {
                 of_link
                     .iter()
                     .enumerate()
-                    .all(|(k, at)| (*at == 0) == (k == frame))
+                    .all(|(k, at)| (*at == 0) == (k == g.frame))
             );
             assert!(of_link.iter().all(|at| *at < front.unwrap_or(*planes)));
-            let tight = Met::new(s, l, &all, 5.0);
+            let tight = Met::new(g, &all, 5.0);
             assert!(
-                tight.passes(l, frame, of_link, front),
+                tight.passes(g, of_link, front),
                 "{}: {}",
                 s.name(),
                 f.stacking
             );
-            let roomy = Met::new(s, l, &all, 7.0);
+            let roomy = Met::new(g, &all, 7.0);
             assert!(
-                *planes == 2 || !roomy.can(s, l, planes - 1),
+                *planes == 2 || !roomy.can(g, planes - 1),
                 "{}: {}",
                 s.name(),
                 f.stacking
             );
         }
         Stacking::Meets => {
-            let roomy = Met::new(s, l, &all, 7.0);
-            assert!(!roomy.can(s, l, s.structure.chain.links()), "{}", s.name());
+            let roomy = Met::new(g, &all, 7.0);
+            assert!(!roomy.can(g, g.links), "{}", s.name());
         }
         Stacking::NotAsked => panic!("{}", s.name()),
     }

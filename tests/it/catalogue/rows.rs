@@ -1,29 +1,21 @@
 //! Rows of a catalogue against the plain commands, and its fronts against a slow look at all.
 
 use super::carried_on::scattered;
-use super::command::{at, ok};
-use itertools::Itertools;
+use super::command::{self, at, free_state};
+use super::paired::{Built, built};
+use crate::common::*;
 use ozols::Request;
-use ozols::geom::vector::real;
 use ozols::model::ranking::ClearanceSum;
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;
-use std::collections::BTreeSet;
-use std::sync::OnceLock;
-use tempfile::{TempDir, tempdir};
 
 /// All structures of four and six links, made once for the tests that look at them.
 pub(super) fn all_of_six() -> &'static str {
-    static FILE: OnceLock<(TempDir, String)> = OnceLock::new();
-    let (_, file) = FILE.get_or_init(|| {
-        let folder = tempdir().unwrap();
-        let file = at(&folder, "all.db");
-        ok(&[
-            "catalog", "build", "--links", "4..6", "--ideas", "6", "--quiet", "-o", &file,
-        ]);
-        (folder, file)
-    });
-    file
+    static FILE: Built = OnceLock::new();
+    built(
+        &FILE,
+        &words("catalog build --links 4..6 --ideas 6 --quiet -o"),
+    )
 }
 
 #[test]
@@ -32,52 +24,32 @@ fn rows_that_are_exported_have_the_same_figures_by_the_plain_commands() {
     let folder = tempdir().unwrap();
     let sql = "SELECT id, mobility, redundant, finite, determinate, determinate_w1, best_cost FROM structures JOIN layouts \
                ON structure = id ORDER BY id";
-    let rows: serde_json::Value =
-        serde_json::from_str(&ok(&["catalog", "query", file, sql, "--format", "json"])).unwrap();
-    let rows = rows.as_array().unwrap();
+    let rows = command::rows(file, sql);
     let count = u64::try_from(rows.len()).unwrap();
     let drawn: BTreeSet<u64> = scattered(2).map(|x| x % count).unique().take(20).collect();
     for row in drawn.iter().map(|&i| &rows[usize::try_from(i).unwrap()]) {
         let id = row["id"].as_str().unwrap();
         let toml = at(&folder, &format!("{id}.toml"));
         ok(&["catalog", "export", file, id, "-o", &toml]);
-        let said = |args: &[&str]| -> serde_json::Value {
-            serde_json::from_str(&ok(&[args, &["--format", "json"]].concat())).unwrap()
-        };
-        let free = &said(&["analyze", &toml])["states"][0];
-        assert_eq!(
-            (&free["mobility"], &free["redundant"]),
-            (&row["mobility"], &row["redundant"]),
-            "{id}"
-        );
+        let free = free_state(&toml);
+        for key in ["mobility", "redundant"] {
+            assert_eq!(free[key], row[key], "{id}");
+        }
         assert_eq!(row["finite"], "1, proven");
-        assert_eq!(
-            (&free["finite_mobility"], &free["finite_mobility_proven"]),
-            (&1.into(), &true.into()),
-            "{id}"
-        );
-        let found = said(&["search", &toml, "--max-mobility", "1", "--quiet"]);
-        let number = |key: &str| row[key].to_string();
-        assert_eq!(
-            found["determinate"].as_str().unwrap(),
-            number("determinate"),
-            "{id}"
-        );
-        assert_eq!(
-            found["admissible"].as_str().unwrap(),
-            number("determinate_w1"),
-            "{id}"
-        );
+        assert_eq!(free["finite_mobility"], 1, "{id}");
+        assert_eq!(free["finite_mobility_proven"], true, "{id}");
+        let found = json(&format!(
+            "search {toml} --max-mobility 1 --quiet --format json"
+        ));
+        let told = |key: &str| Value::from(row[key].to_string());
+        assert_eq!(found["determinate"], told("determinate"), "{id}");
+        assert_eq!(found["admissible"], told("determinate_w1"), "{id}");
         // Variants with W = 1 hold outputs and drives throughout the motion, so that all ideas do.
         assert_eq!(found["lasting"], found["admissible"], "{id}");
+        assert_eq!(found["by_mobility"]["1"], told("determinate_w1"), "{id}");
         assert_eq!(
-            found["by_mobility"]["1"].as_str().unwrap(),
-            number("determinate_w1"),
-            "{id}"
-        );
-        assert_eq!(
-            found["variants"][0]["cost"].as_f64(),
-            row["best_cost"].as_f64(),
+            found["variants"][0]["cost"].real(),
+            row["best_cost"].real(),
             "{id}"
         );
     }
@@ -133,17 +105,12 @@ fn the_fronts_are_what_no_other_beats() {
     assert!(best.len() < ideas.len());
 }
 
-fn told(sql: &str) -> Vec<serde_json::Value> {
-    let said = ok(&["catalog", "query", all_of_six(), sql, "--format", "json"]);
-    serde_json::from_str(&said).unwrap()
-}
-
 /// The area is that of the box round all that is drawn, in mm²; what the tips may be off by is in mm, where scores are in metres.
 #[test]
 fn areas_and_errors_are_in_millimetres() {
     let sql = "SELECT layouts.structure, mechanism, area, output_error FROM layouts JOIN ideas ON ideas.structure = layouts.structure \
                JOIN structures ON id = layouts.structure WHERE place = 1 AND symmetry = 'mirror' ORDER BY id LIMIT 4";
-    let rows = told(sql);
+    let rows = command::rows(all_of_six(), sql);
     assert!(rows.len() > 1);
     for row in rows {
         let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
@@ -180,7 +147,7 @@ fn areas_and_errors_are_in_millimetres() {
 fn ideas_differ_and_symmetric_ones_come_first() {
     let sql = "SELECT structure, mechanism, changes, cost, best_cost FROM ideas JOIN layouts USING (structure) JOIN structures ON id = structure \
                WHERE symmetry IN ('mirror', 'half-turn') ORDER BY structure, place";
-    let rows = told(sql);
+    let rows = command::rows(all_of_six(), sql);
     let (mut symmetric, mut other) = (0, 0);
     for (_, ideas) in &rows.iter().chunk_by(|r| r["structure"].to_string()) {
         let ideas: Vec<_> = ideas.collect();
@@ -222,7 +189,7 @@ fn ideas_differ_and_symmetric_ones_come_first() {
 #[test]
 fn variants_of_generic_layouts_are_their_own_images() {
     let sql = "SELECT variants, orbits, symmetric FROM counts JOIN structures ON id = structure WHERE symmetry = 'generic'";
-    let rows = told(sql);
+    let rows = command::rows(all_of_six(), sql);
     assert!(rows.len() > 20);
     for row in rows {
         assert!(

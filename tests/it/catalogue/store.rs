@@ -1,20 +1,15 @@
 //! The file of a catalogue: versions, parts that are missing, foreign files, and what a question may not do.
 
-use super::command::{at, fails, ok, whole};
-use crate::common::{ozols, run, text};
+use super::command::{at, whole};
+use crate::common::*;
 use rusqlite::Connection;
-use std::fs;
-use std::path::Path;
-use std::process::Command;
-use tempfile::{TempDir, tempdir};
+use std::ffi::OsStr;
 
 /// A catalogue of two structures.
 fn tiny(folder: &TempDir, name: &str, more: &[&str]) -> String {
     let file = at(folder, name);
-    let words = [
-        "catalog", "build", "--links", "4", "--ideas", "1", "--quiet",
-    ];
-    ok(&[&words[..], &["-o", &file], more].concat());
+    let words = words("catalog build --links 4 --ideas 1 --quiet -o");
+    ok(&[&words[..], &[&file], more].concat());
     file
 }
 
@@ -26,22 +21,25 @@ fn change(file: &str, sql: &str) {
 fn a_catalogue_of_another_version_is_refused() {
     let folder = tempdir().unwrap();
     let file = tiny(&folder, "other.db", &[]);
+    let [page, whole] = ["page.html", "m.db"].map(|n| at(&folder, n));
     for version in [0, 9, 10, 12] {
         change(&file, &format!("PRAGMA user_version = {version};"));
         let bytes = fs::read(&file).unwrap();
         let says = format!(
             "other.db has tables of version {version}, and this ozols reads version 11 alone"
         );
-        for args in [
-            &["query", &file][..],
-            &["page", &file, "-o", &at(&folder, "page.html")],
-            &["build", "--links", "4", "--ideas", "1", "-o", &file],
-            &["search", "four-bar", "-o", &file],
-            &["merge", &file, "-o", &at(&folder, "m.db")],
+        for line in [
+            format!("query {file}"),
+            format!("page {file} -o {page}"),
+            format!("build --links 4 --ideas 1 -o {file}"),
+            format!("search four-bar -o {file}"),
+            format!("merge {file} -o {whole}"),
         ] {
-            let words = [&["catalog"], args].concat();
-            fails(&words, &says);
-            fails(&words, "`ozols catalog build -o NAME.db`");
+            fails(&format!("catalog {line}"), &says);
+            fails(
+                &format!("catalog {line}"),
+                "`ozols catalog build -o NAME.db`",
+            );
         }
         assert_eq!(fs::read(&file).unwrap(), bytes);
     }
@@ -54,39 +52,35 @@ fn parts_that_are_missing_are_named() {
     let parts: Vec<String> = (1..=7).map(part).collect();
     let file = at(&folder, "all.db");
     let merge = |which: &[usize]| {
-        let mut words = vec!["catalog", "merge"];
-        words.extend(which.iter().map(|i| parts[i - 1].as_str()));
-        words.extend(["-o", &file]);
-        let o = run(&words);
-        (o.status.code(), text(&o.stderr))
+        let parts = which.iter().map(|i| &parts[i - 1]).join(" ");
+        let (code, _, said) = ran(&format!("catalog merge {parts} -o {file}"));
+        (code, said)
     };
-    let (code, said) = merge(&[2, 5]);
-    assert_eq!(code, Some(1), "{said}");
-    assert!(
-        said.contains("of 7 parts 1/7, 3/7, 4/7, 6/7, 7/7 are missing"),
-        "{said}"
+    let incomplete = |which: &[usize], says: &[&str]| {
+        let (code, said) = merge(which);
+        assert_eq!(code, Some(1), "{said}");
+        has_all(&said, says);
+    };
+    incomplete(
+        &[2, 5],
+        &["of 7 parts 1/7, 3/7, 4/7, 6/7, 7/7 are missing", "--shard"],
     );
-    assert!(said.contains("--shard"), "{said}");
-    let (code, said) = merge(&[1, 3, 4, 7]);
-    assert_eq!(code, Some(1));
-    assert!(said.contains("of 7 parts 6/7 is missing"), "{said}");
+    incomplete(&[1, 3, 4, 7], &["of 7 parts 6/7 is missing"]);
     assert_eq!(merge(&[6]), (Some(0), String::new()));
     assert_eq!(whole(&file), whole(&tiny(&folder, "once.db", &[])));
     // A part that was not finished says so.
     change(&parts[2], "DELETE FROM parts");
     fs::remove_file(&file).unwrap();
-    let (code, said) = merge(&[1, 2, 3, 4, 5, 6, 7]);
-    assert_eq!(code, Some(1));
-    assert!(
-        said.contains("3.db is not marked as complete") && said.contains("3/7 is missing"),
-        "{said}"
+    incomplete(
+        &[1, 2, 3, 4, 5, 6, 7],
+        &["3.db is not marked as complete", "3/7 is missing"],
     );
 }
 
 #[test]
 fn an_empty_file_is_a_catalogue_to_be_made() {
     let folder = tempdir().unwrap();
-    let file = at(&folder, "empty.db");
+    let [file, other] = ["empty.db", "other.db"].map(|n| at(&folder, n));
     fs::write(&file, "").unwrap();
     fails(&["catalog", "query", &file], "is empty");
     assert_eq!(fs::read(&file).unwrap(), b"");
@@ -99,16 +93,11 @@ fn an_empty_file_is_a_catalogue_to_be_made() {
     );
     tiny(&folder, "empty.db", &[]);
     // Some other program's database is not touched.
-    let other = at(&folder, "other.db");
     change(&other, "CREATE TABLE x (y);");
     let bytes = fs::read(&other).unwrap();
-    for args in [
-        &["query", &other][..],
-        &["build", "--links", "4", "-o", &other],
-        &["search", "four-bar", "-o", &other],
-    ] {
+    for line in ["query", "build --links 4 -o", "search four-bar -o"] {
         fails(
-            &[&["catalog"], args].concat(),
+            &format!("catalog {line} {other}"),
             "is not a catalogue of ozols",
         );
     }
@@ -176,48 +165,29 @@ fn an_answer_is_bounded() {
     fails(&all, "larger than 256 MiB");
 }
 
-/// Names stand for files, whatever SQLite makes of them.
+/// Names stand for files, whatever SQLite makes of them, and need not be text.
 #[test]
 fn a_name_is_that_of_a_file() {
     let folder = tempdir().unwrap();
-    let here = |args: &[&str]| {
-        let o = ozols(args).current_dir(&folder).output().unwrap();
-        assert_eq!(o.status.code(), Some(0), "{args:?}: {}", text(&o.stderr));
+    let here = |line: &str, name: &OsStr| {
+        let mut command = ozols(line);
+        let o = command.arg(name).current_dir(&folder).output().unwrap();
+        assert_eq!(o.status.code(), Some(0), "{line}: {}", text(&o.stderr));
     };
-    for name in [":memory:", "file:x.db?mode=memory", "a'b\".db", "%41.db"] {
-        let words = [
-            "catalog", "build", "--links", "4", "--ideas", "1", "--quiet", "-o", name,
-        ];
-        here(&words);
-        assert!(folder.path().join(name).is_file(), "{name}");
-        here(&["catalog", "query", name]);
-        here(&["catalog", "merge", name, "-o", "whole.db"]);
+    let mut names = [":memory:", "file:x.db?mode=memory", "a'b\".db", "%41.db"]
+        .map(OsStr::new)
+        .to_vec();
+    #[cfg(unix)]
+    names.push(std::os::unix::ffi::OsStrExt::from_bytes(b"caf\xe9.db"));
+    for name in names {
+        here("catalog build --links 4 --ideas 1 --quiet -o", name);
+        assert!(folder.path().join(name).is_file(), "{name:?}");
+        here("catalog query", name);
+        here("catalog page -o page.html", name);
+        here("catalog merge -o whole.db", name);
+        // The other way round, what is made has such a name.
+        here("catalog merge whole.db -o", name);
     }
-}
-
-#[cfg(unix)]
-#[test]
-fn a_name_may_be_no_text() {
-    use std::ffi::OsStr;
-    use std::os::unix::ffi::OsStrExt;
-    let folder = tempdir().unwrap();
-    let name = OsStr::from_bytes(b"caf\xe9.db");
-    let command = |words: &str, names: &[&OsStr]| {
-        let mut c = Command::new(env!("CARGO_BIN_EXE_ozols"));
-        c.args(words.split(' ')).args(names).current_dir(&folder);
-        let o = c.output().unwrap();
-        assert_eq!(o.status.code(), Some(0), "{words}: {}", text(&o.stderr));
-    };
-    command("catalog build --links 4 --ideas 1 --quiet -o", &[name]);
-    assert!(folder.path().join(name).is_file());
-    command("catalog query", &[name]);
-    let merged = OsStr::from_bytes(b"\xff.db");
-    command("catalog merge", &[name, OsStr::new("-o"), merged]);
-    assert!(folder.path().join(merged).is_file());
-    command(
-        "catalog page",
-        &[merged, OsStr::new("-o"), OsStr::from_bytes(b"\xfe.html")],
-    );
 }
 
 /// What a foreign file says cannot steer a terminal: neither its words, nor the names of its columns, nor its own name.

@@ -1,20 +1,18 @@
 //! Three jaws: as many structures as move in threefold places, laid out exactly so, closing together.
 
-use super::motions::bracketed;
-use super::{Drawn, each_of, form, layout, moved, plain};
-use crate::common::run;
-use itertools::Itertools;
+use super::command::{at, free_state, lines};
+use super::stroke::filed;
+use super::{Drawn, each_of, form, free_motions, layout, plain};
+use crate::common::*;
 use ozols::catalog::row::row;
 use ozols::chains::roles::Subject;
 use ozols::chains::{Input, Symmetry};
-use ozols::geom::vector::real;
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::Limits;
-use std::collections::BTreeMap;
 
 pub(super) fn third([x, y]: [f64; 2]) -> [f64; 2] {
-    let (sine, cosine) = (2.0 * std::f64::consts::PI / 3.0).sin_cos();
+    let (sine, cosine) = (2.0 * PI / 3.0).sin_cos();
     [cosine * x - sine * y, sine * x + cosine * y]
 }
 
@@ -43,37 +41,10 @@ fn motions(s: &Structure, at: &BTreeMap<(usize, usize), [f64; 2]>) -> (usize, bo
             (3 * v + 2, -1.0),
         ]);
     }
-    let mut pivots: Vec<(usize, usize)> = Vec::new();
-    for c in 0..n {
-        let free = |r: &usize| pivots.iter().all(|p| p.0 != *r);
-        let size = |r: &usize| rows[*r][c].abs();
-        let best = (0..rows.len())
-            .filter(free)
-            .max_by(|a, b| size(a).total_cmp(&size(b)));
-        let Some(p) = best.filter(|p| size(p) > 1e-9) else {
-            continue;
-        };
-        let own = rows[p].clone();
-        for (_, other) in rows.iter_mut().enumerate().filter(|(r, _)| *r != p) {
-            let factor = other[c] / own[c];
-            other
-                .iter_mut()
-                .zip(&own)
-                .for_each(|(x, o)| *x -= factor * o);
-        }
-        pivots.push((p, c));
-    }
-    let free = (0..n)
-        .filter(|c| pivots.iter().all(|p| p.1 != *c))
-        .collect_vec();
-    let [only] = free[..] else {
+    let free = free_motions(rows, n);
+    let [motion] = &free[..] else {
         return (free.len(), false);
     };
-    let mut motion = vec![0.0; n];
-    motion[only] = 1.0;
-    for (r, c) in pivots {
-        motion[c] = -rows[r][only] / rows[r][c];
-    }
     let moves = |l: &usize| motion[3 * l..3 * l + 3].iter().any(|x| x.abs() > 1e-9);
     (
         1,
@@ -161,21 +132,17 @@ fn threefold_layouts_are_exact_and_their_jaws_close_together() {
         );
         assert!(laid.exact && !laid.ideas.is_empty());
         // All three tips as fast towards the middle, as the layout says.
-        let step = 1e-5;
-        let (ahead, back) = (moved(&s, &drawn, step), moved(&s, &drawn, -step));
-        let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
-        for (a, b) in ahead.iter().zip(&back) {
-            let speed = (radius(a) - radius(b)).abs() / (2.0 * step);
-            let stated = laid.layout.looks.closing / 2.0;
-            assert!((speed - stated).abs() < 1e-4 * stated, "{speed} {stated}");
-            let mean = bracketed(&s, &laid.figures, 1.5, 2.0 * speed);
-            let told = laid.figures.force[1];
-            assert!((told / mean - 1.0).abs() < 1e-3, "{told} {mean}");
+        let twin = filed(&s, &drawn);
+        let pose = twin.seen(twin.drawn());
+        near(
+            2.0 * laid.layout.looks.closing * pose.drive().abs(),
+            2.0,
+            2e-4,
+        );
+        for speed in pose.parting() {
+            near(speed, 0.5, 1e-4);
         }
-        // Work in is work out: three jaws, whose openings are twice their ways.
         let f = &laid.figures;
-        let work = f.force[1] * 1.5 * (f.openings[1] - f.openings[0]) / 1000.0;
-        assert!(work > 0.5 * f.travel && work < 2.0 * f.travel, "{f:?}");
         assert!(
             f.turns.iter().all(|t| (t - f.turns[0]).abs() < 1e-6),
             "{f:?}"
@@ -197,19 +164,9 @@ fn generic_structures_of_three_jaws_close_on_the_part() {
             return;
         }
         does += 1;
-        let step = 1e-5;
-        let (ahead, back) = (moved(&s, &l, step), moved(&s, &l, -step));
-        let radius = |t: &[f64; 2]| t[0].hypot(t[1]);
-        let speeds = ahead
-            .iter()
-            .zip(&back)
-            .map(|(a, b)| radius(a) - radius(b))
-            .collect_vec();
-        assert!(
-            speeds.iter().all(|v| v * speeds[0] > 0.0),
-            "{}: {speeds:?}",
-            s.name()
-        );
+        let twin = filed(&s, &l);
+        let speeds = twin.seen(twin.drawn()).parting();
+        assert!(speeds.iter().all(|v| *v > 0.0), "{}: {speeds:?}", s.name());
     });
     // Two inputs of each.
     assert_eq!(all, 2 * 31);
@@ -219,65 +176,23 @@ fn generic_structures_of_three_jaws_close_on_the_part() {
 
 #[test]
 fn the_command_takes_three_jaws() {
-    let folder = tempfile::tempdir().unwrap();
-    let db = folder.path().join("three.db").display().to_string();
-    let said = |args: &[&str], code: i32| {
-        let o = run(&[&["catalog"], args].concat());
-        assert_eq!(o.status.code(), Some(code), "{args:?}: {o:?}");
-        String::from_utf8(if code == 0 { o.stdout } else { o.stderr }).unwrap()
-    };
-    let build = [
-        "build",
-        "--links",
-        "8",
-        "--symmetry",
+    let folder = tempdir().unwrap();
+    let [db, toml] = ["three.db", "g.toml"].map(|n| at(&folder, n));
+    has(
+        &ok(&format!(
+            "catalog build --links 8 --symmetry threefold --ideas 2 --quiet -o {db} --jaws 3"
+        )),
         "threefold",
-        "--ideas",
-        "2",
-        "--quiet",
-        "-o",
-        &db,
-    ];
-    let told = said(&[&build[..], &["--jaws", "3"]].concat(), 0);
-    assert!(told.contains("threefold"), "{told}");
+    );
     let sql = "SELECT id FROM structures JOIN layouts ON structure = id WHERE jaws_at_frame = 3";
-    let id = said(&["query", &db, sql, "--format", "csv"], 0)
-        .lines()
-        .nth(1)
-        .unwrap()
-        .to_owned();
-    let shown = said(&["show", &db, &id], 0);
-    assert!(
-        shown.contains("round the part, 3 of them at the frame; laid out threefold"),
-        "{shown}"
+    let id = &lines(&db, sql)[0];
+    let shown = ok(&["catalog", "show", &db, id]);
+    has(
+        &shown,
+        "round the part, 3 of them at the frame; laid out threefold",
     );
-    assert!(shown.contains("swinging, swinging and swinging"), "{shown}");
-    let toml = folder.path().join("g.toml").display().to_string();
-    said(&["export", &db, &id, "--idea", "1", "-o", &toml], 0);
-    let analysed = run(&["analyze", &toml, "--format", "json"]);
-    let analysed: serde_json::Value = serde_json::from_slice(&analysed.stdout).unwrap();
-    assert_eq!(
-        (
-            &analysed["states"][0]["mobility"],
-            &analysed["states"][0]["redundant"]
-        ),
-        (&1.into(), &0.into())
-    );
-    let page = folder.path().join("g.html").display().to_string();
-    said(&["page", &db, "-o", &page], 0);
-    let html = std::fs::read_to_string(&page).unwrap();
-    let cards = super::command::cards_of(&html);
-    let card = cards.iter().find(|c| c["id"] == *id).unwrap();
-    assert!(card["tip_c_dx"].is_number(), "{card}");
-    for (more, says) in [
-        (&["--jaws", "4"][..], "jaws must be from 2 to 3"),
-        (
-            &["--jaws", "3", "--input", "turn", "--parallel", "only"],
-            "each side is in a plane of its own",
-        ),
-        (&["--jaws", "2"], "no layout is asked for"),
-    ] {
-        let told = said(&[&build[..], more].concat(), 2);
-        assert!(told.contains(says), "{told}");
-    }
+    has(&shown, "swinging, swinging and swinging");
+    ok(&["catalog", "export", &db, id, "--idea", "1", "-o", &toml]);
+    let free = free_state(&toml);
+    assert_eq!([&free["mobility"], &free["redundant"]], [1, 0]);
 }

@@ -1,7 +1,7 @@
 //! What is wrong with a mechanism file is said with its line, the item and the remedy.
 
 use super::{four_bar, refused};
-use crate::common::{cases, changed, has, written};
+use crate::common::*;
 
 /// Asserts that a file is refused at the line where `line_with` first stands, with these words.
 pub(super) fn bad_file(name: &str, content: &str, line_with: &str, parts: &[&str]) {
@@ -169,7 +169,7 @@ fn error_numbers_beyond_all_bounds() {
 
 #[test]
 fn outputs_that_have_no_place_are_refused_by_their_names() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let place = folder.path().to_str().unwrap();
     for command in ["analyze", "search", "check"] {
         refused(&[command, place], &["is a folder; name a file in it"]);
@@ -183,5 +183,5 @@ fn outputs_that_have_no_place_are_refused_by_their_names() {
         let said = refused(&[command, "four-bar", "-o", &nowhere], &parts);
         assert!(!said.contains("os error"), "{said}");
     }
-    assert_eq!(std::fs::read_dir(place).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(place).unwrap().count(), 0);
 }

@@ -107,8 +107,8 @@ fn what_finished_within_the_memory_stays_exact() {
 #[cfg(target_os = "linux")]
 #[test]
 fn tallies_stay_within_the_memory() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("x.toml"), ladder(20)).unwrap();
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("x.toml"), ladder(20)).unwrap();
     let command = format!(
         "ulimit -v 1000000; exec '{}' search x.toml --nodes 1 --count --threads 2 --format json",
         env!("CARGO_BIN_EXE_ozols")
@@ -132,9 +132,9 @@ fn tallies_stay_within_the_memory() {
 #[cfg(target_os = "linux")]
 #[test]
 fn scarce_addresses_end_no_search() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for contours in [8, 20] {
-        std::fs::write(folder.path().join("x.toml"), ladder(contours)).unwrap();
+        fs::write(folder.path().join("x.toml"), ladder(contours)).unwrap();
         let command = format!(
             "ulimit -v 200000; exec '{}' search x.toml --count --check none --threads 4 --format json",
             env!("CARGO_BIN_EXE_ozols")
@@ -176,8 +176,8 @@ fn limits_of_the_process_count() {
 #[cfg(target_os = "linux")]
 #[test]
 fn no_reader_reads_without_a_bound() {
-    let folder = tempfile::tempdir().unwrap();
-    let huge = std::fs::File::create(folder.path().join("huge")).unwrap();
+    let folder = tempdir().unwrap();
+    let huge = fs::File::create(folder.path().join("huge")).unwrap();
     huge.set_len(1_500_000_000).unwrap();
     for line in [
         "check huge",
@@ -191,8 +191,8 @@ fn no_reader_reads_without_a_bound() {
         "search four-bar --costs huge",
         "fix robot.urdf --loops huge",
     ] {
-        let _ = std::fs::remove_file(folder.path().join("robot.xml"));
-        std::fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
+        let _ = fs::remove_file(folder.path().join("robot.xml"));
+        fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
         let command = format!(
             "ulimit -v 1000000; exec '{}' {line} --quiet",
             env!("CARGO_BIN_EXE_ozols")

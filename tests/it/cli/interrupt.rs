@@ -1,7 +1,7 @@
 //! Signals: what is said, what is left, and the exit code.
 
 use crate::common::*;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -68,7 +68,7 @@ fn written(folder: &Path) -> u64 {
 fn a_list_that_is_cut_short_says_so_at_its_end() {
     for (signal, code) in signals() {
         for format in ["csv", "jsonl", "json"] {
-            let folder = tempfile::tempdir().unwrap();
+            let folder = tempdir().unwrap();
             let folder = folder.path();
             let args = [
                 "search",
@@ -119,7 +119,7 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
 #[test]
 fn a_whole_list_has_no_such_end() {
     for format in ["csv", "jsonl", "json"] {
-        let list = crate::common::out(&["search", "four-bar", "--all", "--format", format]);
+        let list = out(&["search", "four-bar", "--all", "--format", format]);
         assert!(!list.contains("stop\":\"") && !list.contains("# stopped"));
         if format == "json" {
             let whole: Value = serde_json::from_str(&list).unwrap();
@@ -132,11 +132,11 @@ fn a_whole_list_has_no_such_end() {
 #[test]
 fn a_list_of_a_bounded_search_says_so_at_its_end() {
     let args = ["search", "gripper-10", "--nodes", "50", "--top", "2"];
-    let csv = crate::common::out(&[&args[..], &["--format", "csv", "--comment"]].concat());
+    let csv = out(&[&args[..], &["--format", "csv", "--comment"]].concat());
     let last = csv.lines().last().unwrap();
     assert!(last.starts_with("# stopped early (node-budget): 2 of at least"));
     // Unless it is asked for in the list, it is said beside it.
-    let o = crate::common::run(&[&args[..], &["--format", "csv"]].concat());
+    let o = run(&[&args[..], &["--format", "csv"]].concat());
     assert!(text(&o.stderr).starts_with("stopped early (node-budget): 2 of at least"));
     assert_eq!(
         csv.strip_suffix(&format!("{last}\n")).unwrap(),
@@ -161,7 +161,7 @@ fn whatever_takes_long_ends_at_once() {
         ],
         &["accuracy", "-o", "x"],
     ] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = tempdir().unwrap();
         let begun = Instant::now();
         let child = start(folder.path(), args);
         let ready = || begun.elapsed() > Duration::from_millis(400);
@@ -181,7 +181,7 @@ fn whatever_takes_long_ends_at_once() {
 /// A ranking gives the best of what it scored, and poses what was looked at.
 #[test]
 fn a_ranking_and_poses_end_with_what_they_have() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for args in [
         &[
             "search",
@@ -221,7 +221,7 @@ fn a_ranking_and_poses_end_with_what_they_have() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_ignored_hangup_stays_ignored() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let command = format!(
         "trap '' HUP; exec '{}' search gripper-10 --method brute --options {MANY}",
         env!("CARGO_BIN_EXE_ozols")
@@ -250,7 +250,7 @@ fn what_is_cut_short_takes_nobodys_place() {
         (list, "older.csv", "older.interrupted.csv"),
         (page, "older.html", "older.interrupted.html"),
     ] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = tempdir().unwrap();
         let folder = folder.path();
         fs::write(folder.join(name), "whole and finished").unwrap();
         let args: Vec<&str> = line.split(' ').collect();
@@ -271,7 +271,7 @@ fn what_is_cut_short_takes_nobodys_place() {
 /// A run that is killed cannot clean up after itself.
 #[test]
 fn what_killed_runs_left_is_cleaned_by_the_next() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let folder = folder.path();
     let list = "search gripper-10 --all --check none --format csv -o list.csv";
     let list: Vec<&str> = list.split(' ').collect();
@@ -297,7 +297,7 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
     assert!(folder.join(".tmpother").exists() && folder.join("x.txt").exists());
     going.kill().unwrap();
     going.wait().unwrap();
-    crate::common::ozols(&["analyze", "four-bar", "-o", "x.txt"])
+    ozols(&["analyze", "four-bar", "-o", "x.txt"])
         .current_dir(folder)
         .assert()
         .success();

@@ -3,7 +3,6 @@
 use super::bad_files::bad_file;
 use crate::common::*;
 use ozols::file::schema::json_schema;
-use serde_json::json;
 
 /// A step from a value to a list in it.
 #[derive(Clone)]

@@ -2,7 +2,7 @@
 
 use super::four_bar;
 use crate::common::*;
-use std::process::{Command, Output};
+use std::process::Command;
 
 /// Runs a command of a shell in a folder; `ozols` is the program.
 fn shell(folder: &Path, words: &str) -> Output {
@@ -29,7 +29,7 @@ fn held(folder: &Path) -> Vec<(String, Vec<u8>)> {
 /// Each is refused before anything is written.
 #[test]
 fn two_outputs_of_one_name_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let folder = folder.path();
     fs::create_dir(folder.join("sub")).unwrap();
     let path = |name: &str| folder.join(name).display().to_string();
@@ -76,7 +76,7 @@ fn two_outputs_of_one_name_are_refused() {
 /// A folder of charts has a page, which no other output replaces.
 #[test]
 fn an_output_among_the_charts_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let charts = folder.path().join("charts");
     let page = charts.join("index.html");
     let [charts, page] = [charts, page].map(|p| p.display().to_string());
@@ -93,7 +93,7 @@ fn an_output_among_the_charts_is_refused() {
 #[cfg(unix)]
 #[test]
 fn standard_input_and_output_are_files_like_others() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let folder = folder.path();
     let (file, link) = (folder.join("f.toml"), folder.join("hard.toml"));
     fs::write(&file, four_bar()).unwrap();
@@ -127,7 +127,7 @@ fn standard_input_and_output_are_files_like_others() {
 /// What a description includes is read as well.
 #[test]
 fn an_included_file_is_not_written_over() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let robot = include_str!("../../data/robots/gripper.xml");
     let (main, part) = (
         folder.path().join("main.xml"),
@@ -153,7 +153,7 @@ fn an_included_file_is_not_written_over() {
 #[cfg(unix)]
 #[test]
 fn a_file_that_may_not_grow_is_an_error_with_its_name() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let folder = folder.path();
     for [words, name] in cases::<2>(
         r"
@@ -186,7 +186,7 @@ fn a_file_that_may_not_grow_is_an_error_with_its_name() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_device_is_an_error_with_its_name() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for words in [
         "--help",
         "--version",

@@ -48,7 +48,7 @@ fn files_that_are_no_text_are_refused() {
 
 /// Asserts that the bytes are refused with these words; there is no line to name.
 fn bad_bytes(bytes: &[u8], parts: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for name in ["bad.toml", "bad.json"] {
         let path = folder.path().join(name);
         fs::write(&path, bytes).unwrap();

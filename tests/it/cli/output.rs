@@ -9,7 +9,7 @@ use std::process::Stdio;
 
 #[test]
 fn output_file_is_whole() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("x");
     let file = path.to_str().unwrap();
     for args in [
@@ -87,7 +87,7 @@ fn a_closed_pipe_is_quiet() {
 #[test]
 fn output_to_a_special_file_keeps_it() {
     use std::os::unix::fs::FileTypeExt;
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("fifo");
     assert!(
         std::process::Command::new("mkfifo")
@@ -110,7 +110,7 @@ fn output_to_a_special_file_keeps_it() {
 #[cfg(unix)]
 #[test]
 fn output_through_a_symbolic_link() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let (real, link) = (folder.path().join("real"), folder.path().join("link"));
     fs::write(&real, "old").unwrap();
     std::os::unix::fs::symlink(&real, &link).unwrap();
@@ -148,7 +148,7 @@ fn a_search_says_how_long_it_took() {
 /// Whatever a command reads stays as it is, by whatever name it is to be written over, and no catalogue is taken for an old result.
 #[test]
 fn what_is_read_is_not_written_over() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (file, robot, same, db) = (at("in.toml"), at("in.xml"), at("./in.toml"), at("c.db"));
     fs::write(&file, four_bar()).unwrap();

@@ -6,7 +6,7 @@ use crate::common::*;
 /// ESC colours a terminal and worse, CR hides what came before, NUL ends strings of other programs.
 #[test]
 fn control_characters_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let file = folder.path().join("x.toml");
     let shown = out(&["show", "four-bar"]);
     for (from, to, key) in [
@@ -27,7 +27,7 @@ fn control_characters_are_refused() {
     let shown = out(&["export", "four-bar", "--to", "json"]);
     fs::write(&json, changed(&shown, "\"four-bar\"", "\"a\\u001b\"")).unwrap();
     refused(
-        &["analyze", json.to_str().unwrap()],
+        &format!("analyze {}", json.display()),
         &["name contains the control character \\u{1b}"],
     );
     let urdf = folder.path().join("x.urdf");
@@ -95,7 +95,7 @@ fn every_row_of_csv_has_as_many_cells_as_the_head() {
 #[test]
 fn a_written_file_has_the_mode_it_had_or_the_umask() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let mode = |name: &str| {
         let path = folder.path().join(name);
         fs::metadata(path).unwrap().permissions().mode() & 0o777
@@ -123,7 +123,7 @@ fn a_written_file_has_the_mode_it_had_or_the_umask() {
 
 #[test]
 fn a_dash_is_standard_output() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for args in [
         &["search", "four-bar", "--format", "csv"][..],
         &["analyze", "four-bar"],
@@ -140,14 +140,7 @@ fn a_dash_is_standard_output() {
 #[test]
 fn a_counting_method_has_no_certificate() {
     refused(
-        &[
-            "analyze",
-            "four-bar",
-            "--method",
-            "count",
-            "--certificate",
-            "c",
-        ],
+        "analyze four-bar --method count --certificate c",
         &["--method count", "no certificate"],
     );
 }
@@ -156,7 +149,7 @@ fn a_counting_method_has_no_certificate() {
 #[cfg(unix)]
 #[test]
 fn an_included_pipe_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let made = std::process::Command::new("mkfifo")
         .arg(folder.path().join("pipe"))
         .status();
@@ -168,7 +161,7 @@ fn an_included_pipe_is_refused() {
     )
     .unwrap();
     refused(
-        &["export", file.to_str().unwrap(), "--to", "toml"],
+        &format!("export {} --to toml", file.display()),
         &["pipe", "it is not a file"],
     );
 }

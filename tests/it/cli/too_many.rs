@@ -2,7 +2,7 @@
 
 use super::bad_files::{bad_file, with};
 use super::four_bar;
-use ozols::builtin;
+use crate::common::*;
 
 /// What is beyond a limit is refused, and not left out.
 #[test]

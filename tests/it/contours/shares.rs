@@ -1,9 +1,7 @@
 //! σ of a contour over all bases that it is part of, against every basis of simple closed walks.
 
 use crate::common::*;
-use ozols::closure::Closure;
 use ozols::closure::contour::{Contour, closed_walk};
-use ozols::geom::exact::ExactField;
 use ozols::rank::exact::field::field_of;
 use ozols::redundancy::contour_shares::{ContourShare, shares};
 use ozols::redundancy::measured::Measured;

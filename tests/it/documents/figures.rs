@@ -199,7 +199,7 @@ fn the_guide_has_the_energies_of_the_built_in_drive() {
 #[test]
 fn digits_near_the_failures_of_the_methods_are_as_the_guide_says() {
     const GUIDE: &str = "src/guide/kinetostatics.md";
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let args = [
         "statics",
         "--stability",

@@ -1,7 +1,6 @@
 //! Points of interest: where they are, their ways over the stroke, and what is wrong with some.
 
-use crate::common::{cases, changed, has, out, run_on};
-
+use crate::common::*;
 /// The numbers of a path, point by point.
 fn points(d: &str) -> Vec<[f64; 2]> {
     let numbers = d.trim_end_matches('Z')[1..].split('L');
@@ -95,10 +94,10 @@ fn points_are_shown_in_every_kinematic_drawing() {
     let written = out(&["export", "jansen-leg", "--to", "toml"]);
     assert!(written.contains("[[point]]") && written.contains("id = \"foot\""));
     let options = "spherical,cylindrical,sphere-in-cylinder";
-    let variant = crate::common::run(&format!(
+    let variant = run(&format!(
         "export jansen-leg --options {options} --variant 1 --to toml"
     ));
-    let variant = crate::common::text(&variant.stdout);
+    let variant = text(&variant.stdout);
     assert!(variant.contains("id = \"foot\""));
 }
 

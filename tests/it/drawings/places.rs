@@ -41,7 +41,7 @@ fn outline(n: roxmltree::Node<'_, '_>) -> Vec<Point> {
     let (low, high) = (points[0], points[1]);
     let radius = (high[0] - low[0]) / 2.0;
     let corner = |i: i32| {
-        let angle = std::f64::consts::TAU * f64::from(i) / 24.0;
+        let angle = TAU * f64::from(i) / 24.0;
         [
             low[0] + radius * (1.0 + angle.cos()),
             low[1] + radius * (1.0 + angle.sin()),

@@ -1,7 +1,6 @@
 //! Drawings as PNG. Most of it needs the feature `png`: `cargo test --features png --test integration png`.
 
-use crate::common::run;
-
+use crate::common::*;
 fn refused(args: &[&str], what: &str) {
     let done = run(args);
     let said = String::from_utf8_lossy(&done.stderr).into_owned();
@@ -19,7 +18,7 @@ fn sizes_are_for_png() {
 #[cfg(not(feature = "png"))]
 #[test]
 fn a_build_without_png_says_so() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = dir.path().join("x.PNG");
     let path = path.to_str().unwrap();
     refused(&["draw", "bennett", "--png"], "--features png");
@@ -32,7 +31,7 @@ fn a_build_without_png_says_so() {
 #[cfg(feature = "png")]
 mod with_png {
     use super::refused;
-    use crate::common::built_in;
+    use built_in;
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
     use ozols::file::text::mechanism_from_str;
@@ -236,13 +235,13 @@ joint = [
 
     #[test]
     fn joint_types_are_explained_in_a_picture() {
-        let dir = tempfile::tempdir().unwrap();
+        let dir = tempdir().unwrap();
         for t in JointType::NAMED {
             let path = dir.path().join(format!("{t}.png"));
-            let done = crate::common::run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
+            let done = run(&["explain", t.name(), "-o", path.to_str().unwrap()]);
             let said = String::from_utf8_lossy(&done.stderr);
             assert!(done.status.success(), "{t}: {said}");
-            let picture = Pixmap::decode_png(&std::fs::read(&path).unwrap()).unwrap();
+            let picture = Pixmap::decode_png(&fs::read(&path).unwrap()).unwrap();
             let dark = picture.pixels().iter().filter(|p| p.red() < 150).count();
             assert!(dark > 500, "{t}: {dark}");
         }
@@ -250,25 +249,22 @@ joint = [
 
     #[test]
     fn command_line() {
-        let dir = tempfile::tempdir().unwrap();
+        let dir = tempdir().unwrap();
         let path = dir.path().join("x.png");
         let path = path.to_str().unwrap();
-        let done = crate::common::run(&["draw", "four-bar", "-o", path, "--width", "321"]);
+        let done = run(&["draw", "four-bar", "-o", path, "--width", "321"]);
         assert!(
             done.status.success(),
             "{}",
             String::from_utf8_lossy(&done.stderr)
         );
-        let file = std::fs::read(path).unwrap();
+        let file = fs::read(path).unwrap();
         let picture = Pixmap::decode_png(&file).unwrap();
         assert_eq!(picture.width(), 321);
-        let piped = crate::common::run(&["draw", "four-bar", "--png", "--width", "321"]);
+        let piped = run(&["draw", "four-bar", "--png", "--width", "321"]);
         assert_eq!(piped.stdout, file);
         refused(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
         refused(&["draw", "four-bar", "--png", "--width", "0"], "--width");
-        refused(
-            &["draw", "four-bar", "--png", "--width", "99999"],
-            "too large",
-        );
+        refused("draw four-bar --png --width 99999", "too large");
     }
 }

@@ -1,7 +1,7 @@
 //! A drawing read back from its SVG: where labels and lines are, what touches what.
 
+use crate::common::*;
 use ozols::draw::{Drawing, Rect};
-use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::redundancy::analysis::StateAnalysis;
 
 /// How far the groups round an element move it.

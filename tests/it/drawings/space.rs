@@ -1,7 +1,6 @@
 //! The mechanism in space on the report page: its first view is the drawing it lies on, and its poses keep joints together.
 
 use crate::common::*;
-
 type Vector = [f64; 3];
 
 fn vector(v: &Value) -> Vector {

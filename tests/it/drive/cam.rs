@@ -145,7 +145,7 @@ fn electromagnets_are_on_until_the_push_begins() {
 /// SVG, CSV and DXF have the same profile, in millimetres.
 #[test]
 fn profiles_are_written_for_the_workshop() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("cam");
     out(&["drive", "torsion-module", "--svg", at.to_str().unwrap()]);
     assert!(
@@ -173,7 +173,7 @@ fn profiles_are_written_for_the_workshop() {
 /// The payload's motion goes on to the grip: what a step takes is greatest where the disc is driven hardest.
 #[test]
 fn the_drives_motion_is_what_the_grip_takes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("drive");
     out(&["drive", "torsion-module", "--svg", at.to_str().unwrap()]);
     let table = at.join("motion.csv");

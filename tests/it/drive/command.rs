@@ -1,8 +1,7 @@
 //! `ozols drive` as its users meet it.
 
-mod moments;
-
 use crate::common::*;
+mod moments;
 
 // The command.
 
@@ -42,11 +41,7 @@ fn built_in_module_runs_its_programme() {
     let value = json(&["drive", "torsion-module", "--format", "json"]);
     let design = &value["design"];
     // I = 0.05 + 2 · 0.3², k = I (2π/0.8)².
-    near(
-        design["stiffness"].real(),
-        0.23 * (std::f64::consts::TAU / 0.8).powi(2),
-        1e-9,
-    );
+    near(design["stiffness"].real(), 0.23 * (TAU / 0.8).powi(2), 1e-9);
     // Greatest acceleration: r p² φ0, as φ0 < 1.
     let p2 = design["stiffness"].real() / 0.23;
     near(
@@ -269,7 +264,7 @@ fn programmes_are_read_step_by_step() {
 
 #[test]
 fn charts_are_written_as_svg_and_csv() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("charts");
     out(&["drive", "torsion-module", "--svg", at.to_str().unwrap()]);
     for name in ["angles", "energy"] {

@@ -1,9 +1,9 @@
 //! Programmes of swings, and their long run.
 
+use crate::common::*;
 mod out_of_true;
 mod repeated;
 
-use crate::common::near;
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::{Disc, End, Feed, Latch};
 use ozols::model::drive::ProgrammeStep;

@@ -1,10 +1,9 @@
 //! One swing against a step-by-step integrator.
 
-use crate::common::near;
+use crate::common::*;
 use ozols::drive::swing::{Disc, End, Feed, Latch, SwingError};
 use ozols::drive::torsion::{decrement, frequency, friction_energy, stored_energy};
 use proptest::prelude::*;
-use std::f64::consts::PI;
 
 const NO_FEED: Feed = Feed {
     energy: 0.0,

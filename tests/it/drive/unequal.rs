@@ -1,10 +1,9 @@
 //! Discs of unequal inertia: the bar and the damping are for the heavier one, whichever is named first.
 
-use crate::common::near;
+use crate::common::*;
 use ozols::drive::driving::{Design, drive};
 use ozols::drive::swing::{Feed, Latch};
 use ozols::file::read::workload::drive_from_bytes;
-use std::f64::consts::TAU;
 
 /// The heavier disc is the first or the second.
 fn designs(more: &str) -> [(Design, f64, usize); 2] {

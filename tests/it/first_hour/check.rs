@@ -1,7 +1,6 @@
 //! `check` says what a file describes, and what in it is likely a slip.
 
 use crate::common::*;
-
 // check
 
 fn four_bar_with(from: &str, to: &str) -> String {

@@ -1,7 +1,6 @@
 //! `new` and `list`: templates of every built-in mechanism.
 
 use crate::common::*;
-
 // new
 
 #[test]
@@ -33,7 +32,7 @@ fn a_template_of_every_built_in_mechanism_gives_its_figures() {
 
 #[test]
 fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for from in words("four-bar gripper-10-loaded lever-gripper torsion-module parallel-shears") {
         let path = folder.path().join(format!("my {from}.toml"));
         let path = path.to_str().unwrap();
@@ -54,7 +53,7 @@ fn a_new_file_is_checked_and_analysed_like_the_one_it_is_made_of() {
 
 #[test]
 fn a_new_file_never_takes_the_place_of_another_unasked() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("mine.toml");
     let file = path.to_str().unwrap();
     fs::write(&path, "mine").unwrap();
@@ -73,7 +72,7 @@ fn a_new_file_never_takes_the_place_of_another_unasked() {
 
 #[test]
 fn a_new_file_needs_a_known_mechanism_and_a_toml_name() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("mine.toml");
     for (from, meant) in [
         ("fourbar", "four-bar"),

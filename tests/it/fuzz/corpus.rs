@@ -10,14 +10,14 @@
 
 use super::readers::{READERS, Reader};
 use super::{edits, spoilt};
+use crate::common::*;
+use fs::File;
 use proptest::prelude::any;
 use proptest::sample::Index;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
-use std::fs::File;
 use std::io::{Seek, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The longest that an input of a few kilobytes may take, in a build for tests beside others.
@@ -30,10 +30,10 @@ const LONGEST: usize = 1 << 16;
 fn kept(reader: &Reader) -> Vec<Vec<u8>> {
     let mut all = (reader.seeds)();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
-    let files = std::fs::read_dir(folder.join(reader.name)).unwrap();
+    let files = fs::read_dir(folder.join(reader.name)).unwrap();
     let mut files: Vec<PathBuf> = files.map(|f| f.unwrap().path()).collect();
     files.sort();
-    all.extend(files.iter().map(|f| std::fs::read(f).unwrap()));
+    all.extend(files.iter().map(|f| fs::read(f).unwrap()));
     all
 }
 
@@ -86,7 +86,7 @@ impl<'r> Given<'r> {
         let answer = catch_unwind(AssertUnwindSafe(|| (self.reader.look)(input)));
         if answer.is_err() || begun.elapsed() > PATIENCE {
             let failed = beside(self.reader, "failed");
-            std::fs::write(&failed, input).unwrap();
+            fs::write(&failed, input).unwrap();
             let (name, time) = (self.reader.name, begun.elapsed());
             panic!("{name}: {time:?}, see {}", failed.display());
         }
@@ -113,7 +113,7 @@ fn what_is_kept_and_what_comes_of_it() {
 #[test]
 fn every_folder_of_the_corpus_is_a_readers() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
-    let found = std::fs::read_dir(folder).unwrap();
+    let found = fs::read_dir(folder).unwrap();
     let mut found: Vec<_> = found.map(|f| f.unwrap().file_name()).collect();
     found.sort();
     let mut names = READERS.map(|r| std::ffi::OsString::from(r.name));

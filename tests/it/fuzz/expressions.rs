@@ -2,8 +2,8 @@
 
 use super::readers::expressions::{TOKENS, read};
 use super::runs;
-use crate::common::{has, words};
-use ozols::geom::expr::{Expr, ExprError};
+use crate::common::*;
+use ozols::geom::expr::ExprError;
 use proptest::prelude::*;
 use proptest::sample::select;
 

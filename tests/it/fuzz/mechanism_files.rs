@@ -2,7 +2,7 @@
 
 use super::readers::mechanism_files::{WORDS, read};
 use super::{edits, runs, spoilt};
-use ozols::builtin;
+use crate::common::*;
 use ozols::file::text::mechanism_from_bytes;
 use proptest::prelude::*;
 use proptest::sample::Index;

@@ -1,7 +1,7 @@
 //! Cases of a load against every direction tried one by one, and obstacles against points of the levers.
 
 use super::{SMALL, lever};
-use crate::common::changed;
+use crate::common::*;
 use ozols::file::read::workload::grip_from_bytes;
 use ozols::geom::vector::unit;
 use ozols::grip::arm_curves::{Varied, arm_curve};
@@ -103,7 +103,7 @@ fn parts_weigh_what_their_cylinder_does() {
     let text = changed(SMALL, "mass = 2", "density = 7850\npart_length = 120");
     let spec = grip_from_bytes("clamp.toml", text.as_bytes()).unwrap().spec;
     // π r² l ρ for r = 20 mm and l = 120 mm.
-    let mass = std::f64::consts::PI * 0.02 * 0.02 * 0.12 * 7850.0;
+    let mass = PI * 0.02 * 0.02 * 0.12 * 7850.0;
     assert!((only(&spec).mass - mass).abs() < 1e-12);
     let of_two = GripSpec {
         diameters: vec![0.02, 0.04],

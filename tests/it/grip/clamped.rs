@@ -1,9 +1,9 @@
 //! The grip's contact forces as loads of the mechanism: statics of the clamped state, and ranking under them.
 
+use crate::common::*;
 mod ranked;
 mod refused;
 
-use crate::common::*;
 use ozols::grip::clamping::{DiameterRow, HoldVerdict};
 use ozols::grip::jaw_loads::Gripping;
 use ozols::model::grip::PartMass;

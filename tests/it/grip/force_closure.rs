@@ -1,8 +1,8 @@
 //! Force and form closure of clamped mechanisms, by hand and against a linear programme of its own.
 
+use crate::common::*;
 mod programme;
 
-use crate::common::*;
 use ozols::grip::clamped_part::{ClampedPart, PartError};
 use ozols::grip::force_closure::{ClosureShares, ForceClosure, closure, shares};
 use std::fmt::Write;
@@ -239,7 +239,7 @@ fn three_contacts_in_a_plane_never_close() {
         let text = vice(
             &(0..n)
                 .map(|i| {
-                    let angle = 0.3 + std::f64::consts::TAU * i as f64 / n as f64;
+                    let angle = 0.3 + TAU * i as f64 / n as f64;
                     let (s, c) = angle.sin_cos();
                     // Off the middle by turns, so that both senses of rotation are stopped.
                     let off = if i % 2 == 0 { 0.4 } else { -0.4 };

@@ -1,8 +1,8 @@
 //! Holding forces against closed forms, a polyhedral linear programme and plain statics.
 
+use crate::common::*;
 mod polyhedral;
 
-use crate::common::near;
 use ozols::geom::vector::cross_plane as cross;
 use ozols::grip::contact::{Gripper, TouchingPose, Unholdable};
 use ozols::grip::holding::{ContactForce, Holding, HoldingOutcome, PartWrench, Spatial, hold};

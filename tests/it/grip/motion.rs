@@ -1,7 +1,6 @@
 //! The clamping force along a motion.
 
 use crate::common::*;
-
 fn along(table: &str, more: &[&str]) -> (Option<i32>, String, String) {
     let (_folder, path) = written("lift.csv", table);
     let args = [&["grip", "lever-gripper", "--motion", path], more].concat();
@@ -38,8 +37,7 @@ fn every_step_has_its_own_least_force() {
     let shown = String::from_utf8(run(&["show", "lever-gripper"]).stdout).unwrap();
     let alone = shown.replace("any_acceleration = 5", "accelerations = [[5, 0, -2]]");
     assert_ne!(shown, alone);
-    let (_, said, errors) =
-        crate::common::run_on("grip", "alone.toml", &alone, &["--format", "json"]);
+    let (_, said, errors) = run_on("grip", "alone.toml", &alone, &["--format", "json"]);
     let alone: Value = serde_json::from_str(&said).expect(&errors);
     let rows = alone["diameters"].list();
     let row = rows

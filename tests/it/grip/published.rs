@@ -1,7 +1,7 @@
 //! The curves of figures 2 to 5 of `[Pavlenko & Godunko 2010]`, and what the paper found on them.
 
 use super::lever;
-use crate::common::{Json, built_in, has, has_all, json, near, out};
+use crate::common::*;
 use ozols::grip::contact::Gripper;
 use ozols::grip::lever_arm::Arms;
 use ozols::model::claim::{Claim, Topic};
@@ -354,13 +354,13 @@ fn claims_are_told_of_the_gripper_of_the_paper_alone() {
     has(&text, "right: l1 alone does");
     let value = json(&["grip", "lever-gripper", "--format", "json"]);
     assert_eq!(value["claims"].list().len(), 17);
-    assert_eq!(value["claims"][0]["right"], serde_json::Value::Null);
+    assert_eq!(value["claims"][0]["right"], Value::Null);
     assert_eq!(value["claims"][13]["holds"], false);
     assert!(value["claims"][13]["right"].is_string());
-    assert_eq!(value["claims"][13]["scan"], serde_json::Value::Null);
+    assert_eq!(value["claims"][13]["scan"], Value::Null);
     assert!(value["claims"][10]["scan"].is_string());
     // A gripper of one's own, started from that one.
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let mine = folder.path().join("mine.toml");
     let mine = mine.to_str().unwrap();
     out(&["new", mine, "--from", "lever-gripper"]);
@@ -376,17 +376,17 @@ fn claims_are_told_of_the_gripper_of_the_paper_alone() {
 /// Figs. 2, 4 and 5 as charts, each point by the equations as they are printed.
 #[test]
 fn figures_are_charts_of_any_gripper() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let file = folder.path().join("curves.toml");
     let text = "name = \"curves\"\nlength_unit = \"mm\"\n[workload.grip]\nlever_length = 100\nprism_angle = 120\n\
         mounting_angle = 20\ndiameter = 60\ndiameters = [40, 60, 100]\npivots = \"nominal\"\nlevers_cross = true\n";
-    std::fs::write(&file, text).unwrap();
+    fs::write(&file, text).unwrap();
     let charts = folder.path().join("charts");
     let [file, into] = [&file, &charts].map(|p| p.to_str().unwrap());
     out(&["grip", file, "--svg", into]);
     for (name, at) in [("length", 0), ("prism-angle", 1), ("mounting-angle", 2)] {
-        let table = std::fs::read_to_string(charts.join(format!("arms-over-{name}.csv"))).unwrap();
-        let mut seen = std::collections::BTreeMap::new();
+        let table = fs::read_to_string(charts.join(format!("arms-over-{name}.csv"))).unwrap();
+        let mut seen = BTreeMap::new();
         for line in table.lines().skip(1) {
             let (series, rest) = line[1..].split_once("\",").unwrap();
             let (arm, diameter) = series.split_once(", D = ").unwrap();
@@ -398,7 +398,7 @@ fn figures_are_charts_of_any_gripper() {
             let [length, prism, mounting] = [own[0], own[1].to_radians(), own[2].to_radians()];
             let part = diameter / 2.0 * (std::f64::consts::FRAC_PI_2 - prism / 2.0).tan();
             let (far, near_part) = (
-                length * (std::f64::consts::PI - prism - mounting).cos(),
+                length * (PI - prism - mounting).cos(),
                 length * mounting.cos(),
             );
             let value = match arm {

@@ -3,7 +3,6 @@
 use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::closure::Closure;
 use ozols::geom::Reals;
 use ozols::rank::numeric::Elimination;
 use ozols::rank::numeric::scaling::{Scaling, rank_of_values, scaled};

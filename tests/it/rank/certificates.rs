@@ -1,9 +1,9 @@
 //! Certificates of rank: every built-in mechanism has one, random matrices do, and none that is false is accepted.
 
+use crate::common::*;
 mod command_line;
 mod corruption;
 
-use crate::common::*;
 use corruption::corruptions;
 use num_rational::BigRational;
 use ozols::geom::number_field::NumberField;

@@ -1,8 +1,7 @@
 //! Numbers written with roots and angles are exactly what they are: modulo primes, and in number fields.
 
+use crate::common::*;
 use ozols::geom::Scalars;
-use ozols::geom::exact::ExactField;
-use ozols::geom::expr::Expr;
 use ozols::geom::number_field::NumberField;
 
 /// Expressions that are nothing: regular polygons, half angles, Gauss sums and roots of roots, as textbooks have them.

@@ -1,12 +1,11 @@
 //! Finite mobility where it is hard to tell: right or undecided, never wrong and sure.
 
+use crate::common::*;
 #[path = "traps/all.rs"]
 pub(crate) mod all;
 #[path = "traps/beyond_doubles.rs"]
 mod beyond_doubles;
 
-use crate::common::*;
-use ozols::closure::Closure;
 use ozols::rank::exact::field::field_of;
 use ozols::rank::exact::modular;
 use ozols::rank::finite::{Finite, How, finite};

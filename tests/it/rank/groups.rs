@@ -1,7 +1,6 @@
 //! Groups of displacements by hand, and what does not depend on how a file is written.
 
 use crate::common::*;
-use ozols::closure::Closure;
 use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::bonds;
 use ozols::rank::finite::displacement_group::whole_group;

@@ -2,7 +2,6 @@
 
 use crate::common::*;
 use crate::search::twin;
-use ozols::closure::Closure;
 use ozols::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use proptest::prelude::*;
 use std::fmt::Write;

@@ -1,7 +1,6 @@
 //! What outputs can do, in words, against what is published of each mechanism; and as twists, against the exact kernel of J.
 
 use crate::common::*;
-
 fn free(args: &[&str]) -> Value {
     json(&[&["analyze", "--state", "free", "--format", "json"], args].concat())["states"][0].take()
 }
@@ -42,8 +41,7 @@ fn outputs_move_as_published() {
 #[test]
 fn dimensions_are_those_of_the_exact_kernel() {
     let all = json(&["list", "--format", "json"]);
-    let names: std::collections::BTreeSet<&str> =
-        all.list().iter().map(|m| m["name"].word()).collect();
+    let names: BTreeSet<&str> = all.list().iter().map(|m| m["name"].word()).collect();
     let mut named = 0;
     for name in names {
         let state = free(&[name]);

@@ -1,11 +1,12 @@
 //! Mobility methods: the automatic choice on every built-in mechanism, turned, scaled and measured; finite mobility by proof
 //! against finite mobility by following the motion; poses against finite differences.
 
+use crate::common::*;
 mod proven;
 
-use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
+use ozols::geom::rigid::RigidMotion;
 use ozols::model::mechanism::Frame;
 use ozols::motion::pose::Pose;
 use ozols::rank::exact::field::field_of;
@@ -18,58 +19,27 @@ use ozols::rank::method::registry;
 use ozols_dense::Matrix;
 use proptest::prelude::*;
 
-/// Uniform in -1..1.
-fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    2.0 * (f64::from(random.next_u32()) / f64::from(u32::MAX)) - 1.0
-}
-
-/// A rotation from a random unit quaternion.
-fn rotation(random: &mut ChaCha8Rng) -> [[f64; 3]; 3] {
-    let q: Vec<f64> = (0..4).map(|_| uniform(random)).collect();
-    let n = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let [w, x, y, z] = [q[0] / n, q[1] / n, q[2] / n, q[3] / n];
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - z * w),
-            2.0 * (x * z + y * w),
-        ],
-        [
-            2.0 * (x * y + z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - x * w),
-        ],
-        [
-            2.0 * (x * z - y * w),
-            2.0 * (y * z + x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
-}
-
 /// The mechanism as another program would write it: turned, shifted by up to `away` of its size and scaled in doubles, with
 /// `noise` on every number.
 fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let turn = rotation(&mut random);
-    let scale = 10f64.powf(uniform(&mut random));
+    let mut random = Noise::new(seed, 0);
+    let axis = [(); 3].map(|()| random.uniform());
+    let turn = RigidMotion::turn(axis, PI * random.uniform());
+    let scale = 10f64.powf(random.uniform());
     let size = m
         .joints
         .iter()
         .flat_map(|j| &j.frame.point)
         .map(|x| x.to_f64().abs())
         .fold(1.0, f64::max);
-    let shift = [(); 3].map(|()| away * size * uniform(&mut random));
-    let turned = |v: &[Expr; 3]| {
-        let v = [0, 1, 2].map(|i| v[i].to_f64());
-        [0, 1, 2].map(|i| (0..3).map(|k| turn[i][k] * v[k]).sum::<f64>())
-    };
+    let shift = [(); 3].map(|()| away * size * random.uniform());
+    let turned = |v: &[Expr; 3]| turn.direction(real(v));
     let mut out = m.clone();
     for joint in &mut out.joints {
         let point = turned(&joint.frame.point);
         let reference = turned(&joint.frame.reference);
         let axis = turned(&joint.frame.axis);
-        let mut number = |x: f64, of: f64| Expr::from_f64(x + noise * of * uniform(&mut random));
+        let mut number = |x: f64, of: f64| Expr::from_f64(x + noise * of * random.uniform());
         let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         joint.frame = Frame {
             point: [0, 1, 2].map(|i| number(scale * (point[i] + shift[i]), scale * size).unwrap()),
@@ -164,7 +134,7 @@ fn what_is_proven_is_found_by_following_the_motion_too() {
     for name in builtin::names() {
         let m = built_in(name);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let closure = ozols::closure::Closure::new(&exact, &m, StateId::FREE).unwrap();
+        let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
         let rank = modular::rank(&exact, &closure);
         let found = finite(&exact, &m, &closure, rank).unwrap();
         if found.is_proven() && closure.columns.len() < 60 {
@@ -190,7 +160,7 @@ fn groups_need_no_more_rows_than_dimensions() {
     for name in builtin::names() {
         let m = built_in(name);
         let exact = field_of(&m, StateId::FREE, 0).unwrap();
-        let closure = ozols::closure::Closure::new(&exact, &m, StateId::FREE).unwrap();
+        let closure = Closure::new(&exact, &m, StateId::FREE).unwrap();
         let group = whole_group(&exact, &m, StateId::FREE).unwrap();
         if matches!(m.mode, Mode::Spatial) && group.dimension() < 6 {
             fewer += 1;

@@ -1,17 +1,13 @@
 //! Poses of small mechanisms, by hand: screws, couplings, paths, ways and what a plane leaves out.
 
 use crate::common::*;
-use ozols::closure::Closure;
 use ozols::geom::Reals;
-use ozols::geom::exact::ExactField;
 use ozols::geom::extent::Extent;
 use ozols::geom::rigid::RigidMotion;
-use ozols::geom::vector::real;
 use ozols::motion::drive_range::Way;
 use ozols::motion::jaws::meet;
 use ozols::motion::pose::Pose;
 use ozols::motion::working::working_way;
-use std::f64::consts::TAU;
 
 fn read(text: &str) -> Mechanism {
     mechanism_from_str("it.toml", text).unwrap_or_else(|e| panic!("{e}"))
@@ -204,7 +200,7 @@ fn idle_motions_slide_or_turn() {
 /// A contour that is open by more gapes more, a quarter turn and beyond.
 #[test]
 fn gaps_grow_beyond_a_quarter_turn() {
-    let m = crate::common::built_in("door-two-hinges");
+    let m = built_in("door-two-hinges");
     let pose =
         ozols::motion::pose::Pose::of_file(&m, ozols::model::mechanism::StateId::FREE).unwrap();
     let gap = |degrees: f64| {

@@ -1,7 +1,6 @@
 //! Coordinates that hold large primes as factors are no zeros: a four-bar with one hinge tilted by such a number.
 
 use crate::common::*;
-use ozols::geom::exact::ExactField;
 use ozols::rank::exact::certificate::certify;
 use proptest::prelude::*;
 

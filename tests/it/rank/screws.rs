@@ -1,14 +1,13 @@
 //! Screws by their lead or their pitch: π is no number that is exact here, and nothing that has it is called exact.
 
-use crate::common::{changed, has, json, out, run_on};
-
+use crate::common::*;
 fn jack(pitch: &str) -> String {
     let own = out(&["show", "screw-jack"]);
     let old = own.lines().find(|l| l.starts_with("pitch = ")).unwrap();
     changed(&own, old, pitch)
 }
 
-fn analysed(file: &str) -> serde_json::Value {
+fn analysed(file: &str) -> Value {
     let (code, said, err) = run_on("analyze", "jack.toml", file, &["--format", "json"]);
     assert_eq!(code, Some(0), "{err}");
     serde_json::from_str(&said).unwrap()
@@ -106,7 +105,7 @@ fn what_is_wrong_with_a_screw_is_told() {
 #[test]
 fn leads_are_written_and_read_in_the_formats_own_units() {
     use ozols::robots::{Options, formats, import};
-    let m = ozols::file::text::mechanism_from_str("jack.toml", &jack("pitch = 10")).unwrap();
+    let m = mechanism_from_str("jack.toml", &jack("pitch = 10")).unwrap();
     assert_eq!(m.length_unit.symbol, "mm");
     let number = |text: &str, before: &str| -> f64 {
         let from = text.find(before).unwrap_or_else(|| panic!("{text}")) + before.len();
@@ -116,10 +115,7 @@ fn leads_are_written_and_read_in_the_formats_own_units() {
     let near =
         |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
     let sdf = formats::write(&m, "sdf").unwrap();
-    near(
-        number(&sdf, "<screw_thread_pitch>"),
-        0.01 * std::f64::consts::TAU,
-    );
+    near(number(&sdf, "<screw_thread_pitch>"), 0.01 * TAU);
     let mjcf = formats::write(&m, "mjcf").unwrap();
     near(number(&mjcf, "polycoef=\"0 "), 0.01);
     // Read back, and by the old tag; a turn of the screw carries what hangs on it along.
@@ -139,7 +135,7 @@ fn leads_are_written_and_read_in_the_formats_own_units() {
     ] {
         let at = |turns: f64| {
             let options = Options {
-                pose: vec![("s".to_owned(), vec![turns * std::f64::consts::TAU])],
+                pose: vec![("s".to_owned(), vec![turns * TAU])],
                 ..Options::default()
             };
             import("m.sdf", model(pitch).as_bytes(), &none, &options)

@@ -1,7 +1,6 @@
 //! Power series of the poses near a pose, by hand: what really moves is stopped at no order, and two toggles at a known one.
 
 use crate::common::*;
-use ozols::closure::Closure;
 use ozols::motion::pose::Pose;
 use ozols::rank::exact::field::field_of;
 use ozols::rank::finite::higher_order::HigherOrder;

@@ -1,7 +1,6 @@
 //! Variants in other poses of the present motion.
 
 use crate::common::*;
-
 const BALANCE: [&str; 8] = [
     "search",
     "roberval-balance",

@@ -5,7 +5,7 @@ use crate::statics::{file, mechanism, r};
 use ozols::motion::follow::{Followed, Why, follow};
 use ozols::motion::pose::Pose;
 use ozols::rank::stroke::analysis::{StrokeFigures, StrokeRequest, stroke};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// Columns of the file's drives in the free state.
 fn drives(m: &Mechanism, pose: &Pose) -> Vec<usize> {
@@ -233,7 +233,7 @@ fn the_gripper_keeps_its_redundancy() {
     let stroke = &v["stroke"];
     assert_eq!(
         (&stroke["stop"], &stroke["unit"]),
-        (&serde_json::Value::Null, &"cm".into())
+        (&Value::Null, &"cm".into())
     );
     let poses = stroke["poses"].list();
     assert_eq!(poses.len(), 21);
@@ -284,7 +284,7 @@ fn the_command() {
             "over a stroke of 0-1",
         ],
     );
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let svg = folder.path().join("c.svg");
     let v = json(&format!(
         "analyze four-bar --stroke 0:-10deg:9 --drive 3-0 --format json --svg {}",
@@ -292,14 +292,14 @@ fn the_command() {
     ));
     assert_eq!(v["stroke"]["drive"], "3-0");
     assert!((v["stroke"]["to"].real() + 10f64.to_radians()).abs() < 1e-15);
-    assert!(std::fs::read_to_string(svg).unwrap().starts_with("<svg"));
+    assert!(fs::read_to_string(svg).unwrap().starts_with("<svg"));
 }
 
 #[test]
 fn a_stroke_that_stops_is_no_success() {
     let o = run("analyze four-bar --stroke 0:180deg:9 --drive 3-0 --format json");
     assert_eq!(o.status.code(), Some(1));
-    let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["stroke"]["stop"]["why"], "dead-point");
 }
 

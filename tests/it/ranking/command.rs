@@ -45,16 +45,7 @@ fn the_command_changes_the_order_and_says_why() {
     assert!(plain.get("ranking").is_some_and(|r| r.is_null()));
     assert_eq!(plain["variants"][0]["scores"], serde_json::json!({}));
     // Asked for on the command line.
-    let asked = json(&[
-        "search",
-        "gripper-10-loaded",
-        "--rank",
-        "peak-moment=2,cost",
-        "--pool",
-        "50",
-        "--format",
-        "json",
-    ]);
+    let asked = json("search gripper-10-loaded --rank peak-moment=2,cost --pool 50 --format json");
     assert_eq!(asked["ranking"]["terms"][0]["weight"], 2.0);
     assert_eq!(asked["ranking"]["scored"], 50);
 }

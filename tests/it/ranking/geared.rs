@@ -107,7 +107,7 @@ fn the_program_ranks_geared_grippers_by_force() {
         &["--top", "3", "--format", "json"],
     );
     assert_eq!(code, Some(0), "{complaint}");
-    let data: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let data: Value = serde_json::from_str(&said).unwrap();
     let first = &data["variants"][0];
     assert_eq!(first["redundant"], 0, "{first}");
     let (code, said, complaint) = run_on("search", "geared.toml", &text, &["--top", "3"]);

@@ -1,10 +1,9 @@
 //! Whether what a ranking calls proven is: all variants scored, and put in order.
 
 use super::loaded;
-use crate::common::but;
+use crate::common::*;
 use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols::model::mechanism::Mechanism;
 use ozols::model::ranking::{ClearanceSum, Limit, Order, Ranking, Term};
 use ozols::score::evaluation::elimination::Scratch;
 use ozols::score::evaluation::evaluate::Evaluator;

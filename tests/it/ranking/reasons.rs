@@ -1,7 +1,7 @@
 //! Why a variant is not where its cost would put it, by hand; and limits either way.
 
 use super::{TERMS, loaded, ranked, ranking};
-use crate::common::has;
+use crate::common::*;
 use ozols::model::ranking::{Limit, Order, Term};
 use ozols::score::outcome::ranking::RankedPool;
 

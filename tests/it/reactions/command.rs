@@ -1,7 +1,6 @@
 //! The command `statics` for spatial mechanisms.
 
 use crate::common::*;
-
 #[test]
 fn the_command_gives_six_components_a_joint() {
     let v = json("statics gripper-10-loaded --spatial --format json");
@@ -52,10 +51,10 @@ fn loads_out_of_the_plane_are_not_left_out() {
         .split("[[expected]]")
         .next()
         .unwrap();
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("loaded.toml");
     let with = |load: &str| {
-        std::fs::write(&path, format!("{four_bar}\n{load}\n")).unwrap();
+        fs::write(&path, format!("{four_bar}\n{load}\n")).unwrap();
         json(&["statics", path.to_str().unwrap(), "--format", "json"])
     };
     let force = |point: &str, force: &str| {

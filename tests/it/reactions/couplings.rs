@@ -1,10 +1,10 @@
 //! What gears, racks and belts pass in statics: published and handed figures, figures by hand, the balance of power at poses,
 //! and a twin that writes all equilibrium equations out.
 
+use crate::common::*;
 mod random;
 mod twin;
 
-use crate::common::*;
 use ozols::model::loads::{ExternalForce, ExternalMoment, Loads};
 use ozols::motion::pose::Pose;
 use ozols::redundancy::stress::exact_self_stresses;
@@ -350,7 +350,7 @@ fn the_program_tells_what_a_coupling_passes() {
     );
     near(cell(slide, "F").parse().unwrap(), 800.0 / 7.0, 1e-9);
     let (_, said, _) = run_on("statics", "rack.toml", &text, &["--format", "json"]);
-    let data: serde_json::Value = serde_json::from_str(&said).unwrap();
+    let data: Value = serde_json::from_str(&said).unwrap();
     let c = &data["couplings"][0];
     assert_eq!(
         (&c["ends"][1]["unit"], &c["gear"], &c["open"]),
@@ -398,9 +398,9 @@ fn gears_that_cannot_mesh_are_told_of() {
 #[test]
 fn groups_of_coupled_joints_are_refused_with_a_way_on() {
     for more in [&["--groups"][..], &["--method", "delta"]] {
-        let o = crate::common::run(&[&["statics", "geared-gripper"][..], more].concat());
+        let o = run(&[&["statics", "geared-gripper"][..], more].concat());
         assert_eq!(o.status.code(), Some(2), "{more:?}");
-        let said = crate::common::text(&o.stderr);
+        let said = text(&o.stderr);
         has_all(
             &said,
             &["joints 0-1 ~ 0-4 are coupled", "spatial reactions"],

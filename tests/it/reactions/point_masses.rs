@@ -196,7 +196,7 @@ fn a_dumb_bell_that_leans_tugs_at_its_bearing() {
         square * (a * a + b * b),
         square * a * a,
     );
-    let m = ozols::file::text::mechanism_from_str("bell.toml", &text).unwrap();
+    let m = mechanism_from_str("bell.toml", &text).unwrap();
     let found = cycle(&m, StateId::FREE, None).unwrap();
     let reaction = &solved(&found).next().unwrap().1.reactions[0];
     // r × F of both about y: z·Fx, with Fx = -m ω² a at z = b and the other way at -b.
@@ -218,7 +218,7 @@ fn forces_come_again_in_each_turn_in_space() {
         force: [-100.0, 0.0, 0.0].map(expr),
         range: Some([0.3, 0.8]),
     });
-    let turn = std::f64::consts::TAU;
+    let turn = TAU;
     let stroke = |from: f64| {
         Some(Stroke {
             from,

@@ -106,13 +106,13 @@ fn rounding_is_nothing_in_any_output() {
         .ok()
         .and_then(|n| n.parse().ok());
     let (first, cases) = asked.map_or((1, 30), |n: u64| (fresh(), n));
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("loaded.toml");
     let file = path.to_str().unwrap();
     let (mut solved, mut nothing) = (0, 0);
     for seed in first..first + cases {
         let content = loaded(&mut ChaCha8Rng::seed_from_u64(seed));
-        std::fs::write(&path, &content).unwrap();
+        fs::write(&path, &content).unwrap();
         for model in [&[][..], &["--spatial"]] {
             let of =
                 |format: &str| run(&[&["statics", file, "--format", format][..], model].concat());

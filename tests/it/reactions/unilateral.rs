@@ -1,7 +1,6 @@
 //! Clamped objects: forces that stand for them, contacts that would pull, contacts that only push.
 
 use crate::common::*;
-
 fn statics(content: &str, more: &[&str]) -> (Option<i32>, String, String) {
     run_on("statics", "clamp.toml", content, more)
 }

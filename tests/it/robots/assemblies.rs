@@ -1,5 +1,6 @@
 //! CAD assemblies: what is read of FreeCAD's and OndselSolver's files, against an independent rank and by hand.
 
+use crate::common::*;
 pub(crate) mod make;
 mod ondsel;
 mod others;
@@ -7,7 +8,6 @@ mod retyped;
 mod told;
 mod wrong;
 
-use crate::common::*;
 use ozols::robots::{Imported, Options, import};
 
 /// What is read of bytes under a name, with no files beside.

@@ -5,8 +5,8 @@
 //! four-bars have their elbow where two circles meet. The twin lays J out from points and directions, in the poses themselves,
 //! and takes its rank by elimination. It shares no code with the program.
 
+use crate::common::*;
 use crate::fuzz::runs;
-use ozols::file::text::mechanism_from_str;
 use ozols::redundancy::duplicate_constraints::held_twice;
 use ozols::redundancy::other_poses::Where;
 use proptest::prelude::*;

@@ -1,8 +1,8 @@
 //! Exports read back as the same mechanism.
 
+use crate::common::*;
 mod physical;
 
-use crate::common::*;
 use crate::robots::read;
 use ozols::redundancy::analysis::Elimination;
 use ozols::robots::formats;
@@ -151,7 +151,7 @@ proptest! {
 
 #[test]
 fn searches_alike() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let file = folder.path().join("g.toml");
     out(&format!(
         "export gripper-10 --to toml -o {}",
@@ -272,7 +272,7 @@ fn the_command() {
 // Masses, gravity, forces, speed and stroke are written, too: the statics of the copy are those of the file.
 #[test]
 fn the_workload_survives() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for to in ["toml", "json"] {
         let file = folder.path().join(format!("shears.{to}"));
         let file = file.to_str().unwrap();
@@ -312,9 +312,9 @@ const RICH: &str = "<mujoco><option timestep='0.001'/><asset><mesh name='m' vert
 // mechanism file.
 #[test]
 fn what_is_lost_is_named() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
-    std::fs::write(path("rich.xml"), RICH).unwrap();
+    fs::write(path("rich.xml"), RICH).unwrap();
     let lost = [
         "Imported from rich.xml (MJCF)",
         "armature (1)",
@@ -350,7 +350,7 @@ fn what_is_lost_is_named() {
         for from in ["rich.xml", "rich.toml"] {
             let file = path(&format!("out.{to}"));
             let told = run(&["export", &path(from), "--to", to, "-o", &file]);
-            let text = std::fs::read_to_string(&file).unwrap();
+            let text = fs::read_to_string(&file).unwrap();
             for what in lost {
                 assert!(text.contains(what), "{from} as {to}: {what}\n{text}");
             }

@@ -20,14 +20,14 @@ fn figures(file: &str, more: &[&str]) -> (u64, u64) {
 // What is there stays, byte for byte: lines are put in, and attributes that are named changed.
 #[test]
 fn fix_keeps_the_file() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let out = dir.path().join("fixed.xml").display().to_string();
     let (_, told) = done(&["fix", &gripper(), "-o", &out]);
     has(&told, "before: rank 11 of 13 rows, W = 1, redundant 2");
     has(&told, "after:  rank 13 of 13 rows, W = 1, redundant 0");
     let (old, new) = (
-        std::fs::read_to_string(gripper()).unwrap(),
-        std::fs::read_to_string(&out).unwrap(),
+        fs::read_to_string(gripper()).unwrap(),
+        fs::read_to_string(&out).unwrap(),
     );
     let left: Vec<&str> = new
         .split('\n')
@@ -64,7 +64,7 @@ fn four_bar(equality: &str, sites: [&str; 2]) -> String {
 
 #[test]
 fn fix_lets_go_at_each_kind_of_equality() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let none = ["", ""];
     let sites = ["<site name='s' pos='2 0.5 0'/>", "<site name='t'/>"];
@@ -101,12 +101,12 @@ fn fix_lets_go_at_each_kind_of_equality() {
             path(&format!("{name}.xml")),
             path(&format!("{name}-fixed.xml")),
         );
-        std::fs::write(&file, &text).unwrap();
+        fs::write(&file, &text).unwrap();
         let (w, found) = figures(&file, &[]);
         assert_eq!(found, sigma, "{name}");
         done(&["fix", &file, "--at", "e", "-o", &out]);
         assert_eq!(figures(&out, &[]), (w, 0), "{name}");
-        let new = std::fs::read_to_string(&out).unwrap();
+        let new = fs::read_to_string(&out).unwrap();
         // Keyframes have the new joints' numbers where MuJoCo looks for them, and classes say nothing of these.
         assert!(new.contains(&format!("qpos='{zeros}")), "{name}: {new}");
         assert!(
@@ -120,15 +120,15 @@ fn fix_lets_go_at_each_kind_of_equality() {
 // A class may say that joints have limits, and each joint which: MuJoCo wants both of a new one that the class is of.
 #[test]
 fn classes_that_limit_joints_do_not_limit_new_ones() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let connect = "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>";
     for class in ["limited='true'", "actuatorfrclimited='true'"] {
         let text = four_bar(connect, ["", ""]).replace("range='-2 2' stiffness='3'", class);
         let (file, out) = (path("four.xml"), path("fixed.xml"));
-        std::fs::write(&file, text).unwrap();
+        fs::write(&file, text).unwrap();
         done(&["fix", &file, "-o", &out]);
-        let new = std::fs::read_to_string(&out).unwrap();
+        let new = fs::read_to_string(&out).unwrap();
         let taken_back = class.replace("'true'", "\"false\"");
         assert!(new.contains(&taken_back), "{new}");
     }
@@ -137,7 +137,7 @@ fn classes_that_limit_joints_do_not_limit_new_ones() {
 // Loops of URDF: in the file, or in one beside it that names joints; and the loops of joints of SDF.
 #[test]
 fn fix_puts_links_in_between() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let urdf = "<robot name='four-bar'>
   <link name='base'/><link name='a'/><link name='b'/><link name='c'/>
@@ -147,7 +147,7 @@ fn fix_puts_links_in_between() {
   <loop_joint name='j4' type='revolute'><link1 link='b' xyz='2 0.5 0' rpy='0 0 0'/><link2 link='c' xyz='1.2622064772 0.8104534588 0' rpy='0 0 -1'/><axis xyz='0 0 1'/></loop_joint>
 </robot>";
     let (file, out) = (path("four.urdf"), path("fixed.urdf"));
-    std::fs::write(&file, urdf).unwrap();
+    fs::write(&file, urdf).unwrap();
     let (w, sigma) = figures(&file, &[]);
     assert_eq!((w, sigma), (1, 3));
     for at in ["j2", "j3", "j4"] {
@@ -174,7 +174,7 @@ fn fix_puts_links_in_between() {
 // SDF 1.10 and later come after 1.9: axes are given in the joint's frame, here a quarter turn from the model's.
 #[test]
 fn sdf_of_two_digit_versions_has_axes_in_the_joint() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let link = |id: &str, at: &str| {
         format!("<link name='{id}'><pose>{at} 1.5707963267948966 0 0</pose></link>")
@@ -198,13 +198,11 @@ fn sdf_of_two_digit_versions_has_axes_in_the_joint() {
             joints.concat()
         );
         let (file, out) = (path("m.sdf"), path("fixed.sdf"));
-        std::fs::write(&file, text).unwrap();
+        fs::write(&file, text).unwrap();
         assert_eq!(figures(&file, &[]), (1, 3), "{version}");
         done(&["fix", &file, "-o", &out]);
         assert_eq!(figures(&out, &[]), (1, 0), "{version}");
-        std::fs::read_to_string(out)
-            .unwrap()
-            .replace(version, "1.9")
+        fs::read_to_string(out).unwrap().replace(version, "1.9")
     });
     assert_eq!(fixed[1], fixed[0]);
     assert_eq!(fixed[2], fixed[0]);
@@ -213,7 +211,7 @@ fn sdf_of_two_digit_versions_has_axes_in_the_joint() {
 // What is included is another file, which is not written.
 #[test]
 fn fix_refuses_what_it_cannot_write() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let text = four_bar(
         "<connect name='e' body1='b' body2='c' anchor='2 0.5 0'/>",
         ["", ""],
@@ -221,9 +219,9 @@ fn fix_refuses_what_it_cannot_write() {
     let (head, rest) = text.split_once("<worldbody>").unwrap();
     let (world, tail) = rest.split_once("</worldbody>").unwrap();
     let part = format!("<mujoco><worldbody>{world}</worldbody></mujoco>");
-    std::fs::write(dir.path().join("part.xml"), part).unwrap();
+    fs::write(dir.path().join("part.xml"), part).unwrap();
     let main: std::path::PathBuf = dir.path().join("main.xml");
-    std::fs::write(&main, format!("{head}<include file='part.xml'/>{tail}")).unwrap();
+    fs::write(&main, format!("{head}<include file='part.xml'/>{tail}")).unwrap();
     let out = dir.path().join("out.xml");
     let words = ["fix", main.to_str().unwrap(), "-o", out.to_str().unwrap()];
     let (code, _, told) = ran(&words);
@@ -237,7 +235,7 @@ fn fix_refuses_what_it_cannot_write() {
 // A search may let a connect go along the direction that it holds twice, and what it finds is written at the connect.
 #[test]
 fn searches_offer_releases_where_loops_close() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     for (equality, name) in [
         (
@@ -247,7 +245,7 @@ fn searches_offer_releases_where_loops_close() {
         ("<weld name='e' body1='c' body2='b'/>", "slide z + turn "),
     ] {
         let (file, out) = (path("four.xml"), path("fixed.xml"));
-        std::fs::write(&file, four_bar(equality, ["", ""])).unwrap();
+        fs::write(&file, four_bar(equality, ["", ""])).unwrap();
         let words = [
             "search", &file, "--all", "--format", "jsonl", "--forbid", "j1", "--forbid", "j2",
             "--forbid", "j3",
@@ -271,7 +269,7 @@ fn searches_offer_releases_where_loops_close() {
         ];
         let (_, told) = done(&words);
         assert!(
-            std::fs::read_to_string(&out).unwrap().contains("e_between"),
+            fs::read_to_string(&out).unwrap().contains("e_between"),
             "{told}"
         );
         assert_eq!(figures(&out, &[]).1, 0);
@@ -282,16 +280,16 @@ fn searches_offer_releases_where_loops_close() {
 // unless a mobility is asked for.
 #[test]
 fn nothing_redundant_is_nothing_to_mend() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (file, out) = (path("arm.xml"), path("out.xml"));
     let text = "\u{feff}<mujoco><worldbody>\r\n<body name='a'><joint name='j1'/>\t<body name='b' pos='1 0 0'><joint name='j2'/></body></body></worldbody></mujoco>\r\n";
-    std::fs::write(&file, text).unwrap();
+    fs::write(&file, text).unwrap();
     for more in [&[][..], &["--variant", "1"], &["--variant", "2"]] {
-        let _ = std::fs::remove_file(&out);
+        let _ = fs::remove_file(&out);
         let (_, told) = done(&[&["fix", &file, "-o", &out], more].concat());
         has(&told, "nothing is redundant (W = 2");
-        assert_eq!(std::fs::read_to_string(&out).unwrap(), text, "{more:?}");
+        assert_eq!(fs::read_to_string(&out).unwrap(), text, "{more:?}");
     }
     let asked = [
         "fix",
@@ -310,9 +308,9 @@ fn nothing_redundant_is_nothing_to_mend() {
 // What lint and search end with is a command that mends, whatever the file is called and however it is read.
 #[test]
 fn the_next_command_mends() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let file = dir.path().join("five bar.urdf").display().to_string();
-    std::fs::copy(folder().join("five_bar.urdf"), &file).unwrap();
+    fs::copy(folder().join("five_bar.urdf"), &file).unwrap();
     let side = folder().join("five_bar.yaml").display().to_string();
     let next = |words: &[&str]| {
         let (_, out, told) = ran(words);
@@ -352,13 +350,13 @@ fn the_next_command_mends() {
 // One actuator pulls both cranks by a tendon: these stay as they are, unless they are named.
 #[test]
 fn joints_that_an_actuator_pulls_stay_as_they_are() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let file = dir.path().join("hand.xml").display().to_string();
-    let text = std::fs::read_to_string(gripper()).unwrap();
+    let text = fs::read_to_string(gripper()).unwrap();
     let pulls = "<tendon><fixed name='split'><joint joint='right_crank_joint' coef='0.5'/>\
         <joint joint='left_crank_joint' coef='0.5'/></fixed></tendon>\
         <actuator><general name='fingers' tendon='split'/></actuator></mujoco>";
-    std::fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
+    fs::write(&file, text.replace("</mujoco>", pulls)).unwrap();
     let out = dir.path().join("out.xml").display().to_string();
     let (code, _, told) = ran(&["fix", &file, "-o", &out]);
     assert!(code == Some(0) && !told.contains("crank_joint"), "{told}");

@@ -197,10 +197,10 @@ const WELDED: &str = "<robot name='w'><link name='a'/><link name='b'/><joint nam
 // Once lost: one file that could not be read took the findings of all the others with it.
 #[test]
 fn lint_goes_on_over_files_that_cannot_be_looked_at() {
-    let at = tempfile::tempdir().unwrap();
+    let at = tempdir().unwrap();
     let put = |name: &str, text: &str| {
         let path = at.path().join(name);
-        std::fs::write(&path, text).unwrap();
+        fs::write(&path, text).unwrap();
         path.to_str().unwrap().to_owned()
     };
     let (bad, welded) = (put("bad.urdf", "<robot"), put("welded.urdf", WELDED));
@@ -250,7 +250,7 @@ fn what_cannot_move_has_nothing_redundant() {
 // Every command over many files reports each, and does the rest.
 #[test]
 fn many_files_are_each_reported() {
-    let at = tempfile::tempdir().unwrap();
+    let at = tempdir().unwrap();
     let file = at.path().join("some.db");
     let file = file.to_str().unwrap();
     let words = [
@@ -305,13 +305,13 @@ fn many_files_are_each_reported() {
 fn names_of_files_may_be_no_text() {
     use std::ffi::{OsStr, OsString};
     use std::os::unix::ffi::OsStrExt;
-    let at = tempfile::tempdir().unwrap();
+    let at = tempdir().unwrap();
     let name = |bytes: &[u8]| OsStr::from_bytes(bytes).to_owned();
     let (toml, urdf) = (name(b"caf\xe9.toml"), name(b"\xff.urdf"));
     let made = name(b"x\xff.toml");
     let four_bar = text(&run_bytes(&["show".into(), "four-bar".into()], at.path()).stdout);
-    std::fs::write(at.path().join(&toml), four_bar).unwrap();
-    std::fs::copy(folder().join("mimic_gripper.urdf"), at.path().join(&urdf)).unwrap();
+    fs::write(at.path().join(&toml), four_bar).unwrap();
+    fs::copy(folder().join("mimic_gripper.urdf"), at.path().join(&urdf)).unwrap();
     let words = |line: &str, file: &OsString| -> Vec<OsString> {
         let words = line
             .split(' ')

@@ -1,7 +1,6 @@
 //! Robots: what is written has mass wherever engines want some, and next to none where nothing is.
 
-use crate::common::{has, run, run_on, text};
-
+use crate::common::*;
 /// The masses and moments of inertia of links whose name is asked for, by the attributes of URDF.
 fn weights(urdf: &str, wanted: impl Fn(&str) -> bool) -> Vec<[f64; 4]> {
     let links = urdf.split("<link name=\"").skip(1);

@@ -18,7 +18,7 @@ fn mjcf_reference_pose() {
             .unwrap()
     };
     assert!(at(std::f64::consts::FRAC_PI_2).contains("point = [1, 0, 0]"));
-    assert!(at(std::f64::consts::PI).contains("point = [0, 1, 0]"));
+    assert!(at(PI).contains("point = [0, 1, 0]"));
 }
 
 // Defaults of equalities stand under <equality>, whatever their kind.
@@ -216,12 +216,12 @@ fn mjcf_errors() {
 #[cfg(unix)]
 #[test]
 fn includes_on_disk() {
-    let out = tempfile::tempdir().unwrap();
+    let out = tempdir().unwrap();
     let inner = out.path().join("inner");
-    std::fs::create_dir(&inner).unwrap();
+    fs::create_dir(&inner).unwrap();
     let part = "<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>";
-    std::fs::write(out.path().join("secret.xml"), part).unwrap();
-    std::fs::write(inner.join("part.xml"), part).unwrap();
+    fs::write(out.path().join("secret.xml"), part).unwrap();
+    fs::write(inner.join("part.xml"), part).unwrap();
     std::os::unix::fs::symlink(out.path().join("secret.xml"), inner.join("link.xml")).unwrap();
     for (file, code) in [
         ("part.xml", 0),
@@ -230,7 +230,7 @@ fn includes_on_disk() {
         ("missing.xml", 2),
     ] {
         let main = inner.join("main.xml");
-        std::fs::write(&main, mjcf(&format!("<include file='{file}'/>"))).unwrap();
+        fs::write(&main, mjcf(&format!("<include file='{file}'/>"))).unwrap();
         let o = run(&["export", main.to_str().unwrap(), "--to", "toml"]);
         assert_eq!(o.status.code(), Some(code), "{file}");
     }

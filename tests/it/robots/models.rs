@@ -1,6 +1,6 @@
 //! Whole models, and loop closures from files beside them.
 
-use crate::common::{but, has, run, text};
+use crate::common::*;
 use crate::robots::{ARM, figures, folder, model, none, refused};
 use ozols::robots::{Options, import};
 
@@ -44,7 +44,7 @@ fn nothing_moves() {
 
 fn with_loops(side: Option<&str>) -> Options {
     Options {
-        loops: side.map(|s| (s.to_owned(), std::fs::read(folder().join(s)).unwrap())),
+        loops: side.map(|s| (s.to_owned(), fs::read(folder().join(s)).unwrap())),
         ..Options::default()
     }
 }
@@ -96,7 +96,7 @@ fn four_bars() {
             loops: Some(("side.toml".to_owned(), side.into_bytes())),
             ..Options::default()
         };
-        let bytes = std::fs::read(folder().join("four_bar_open.sdf")).unwrap();
+        let bytes = fs::read(folder().join("four_bar_open.sdf")).unwrap();
         import("four_bar_open.sdf", &bytes, &none, &options)
     };
     assert_eq!(
@@ -168,7 +168,7 @@ fn descriptions_as_files() {
     ));
     assert_eq!(o.status.code(), Some(0));
     assert!(!text(&o.stderr).contains("coupling"));
-    let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(
         (&v["states"][0]["redundant"], &v["states"][0]["mobility"]),
         (&2.into(), &1.into())

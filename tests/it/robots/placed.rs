@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::read;
-use ozols::geom::vector::{Vector, length, real, sub};
+use ozols::geom::vector::{Vector, length, sub};
 use ozols::robots::Imported;
 use ozols::robots::formats;
 
@@ -126,7 +126,7 @@ fn joints_to_the_world_are_turned_round() {
         )
     };
     let axes = |kind: &str| {
-        let m = ozols::file::text::mechanism_from_str("m.toml", &file(kind)).unwrap();
+        let m = mechanism_from_str("m.toml", &file(kind)).unwrap();
         let text = formats::write(&m, "sdf").unwrap();
         let all = text.split("expressed_in=\"__model__\">").skip(1);
         let all = all.map(|t| t.split('<').next().unwrap().to_owned());

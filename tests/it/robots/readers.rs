@@ -1,7 +1,7 @@
 //! What robot descriptions are read: kinds of files that were refused, or read wrongly, and bad ones of their kind that still
 //! are refused with the place and the reason.
 
-use crate::common::{but, cases, has, has_all, run, run_on};
+use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{figures, folder, none, read, refused};
 use ozols::file::schema::Coordinate;
@@ -23,10 +23,10 @@ fn types_of_joints_beside_the_description() {
             loops: Some(("leg.yaml".to_owned(), side.as_bytes().to_vec())),
             ..Options::default()
         };
-        let bytes = std::fs::read(folder().join("leg.urdf")).unwrap();
+        let bytes = fs::read(folder().join("leg.urdf")).unwrap();
         import("leg.urdf", &bytes, &none, &options).unwrap()
     };
-    let side = std::fs::read_to_string(folder().join("leg.yaml")).unwrap();
+    let side = fs::read_to_string(folder().join("leg.yaml")).unwrap();
     let typed = leg(&side);
     assert_eq!(typed.report.mapped["joint type"], 3);
     assert_eq!(figures(&typed, 1e-9)[4..], [4, 0]);
@@ -65,11 +65,11 @@ fn types_of_joints_beside_the_description() {
 
 #[test]
 fn sdf_includes_of_models() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let put = |name: &str, text: &str| {
         let path = dir.path().join(name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, text).unwrap();
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, text).unwrap();
         path.display().to_string()
     };
     // Axes of files before 1.5 are in the model's frame: those of this one file alone.
@@ -256,7 +256,7 @@ fn links_named_world() {
 // MJCF includes lead out of the file's folder only into a folder that is named.
 #[test]
 fn includes_within_a_named_root() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let part = "<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>";
     for (name, text) in [
         ("root/part.xml", part.to_owned()),
@@ -268,8 +268,8 @@ fn includes_within_a_named_root() {
         ),
     ] {
         let path = dir.path().join(name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, text).unwrap();
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
     }
     let root = dir.path().join("root").display().to_string();
     for (file, models, code) in [

@@ -1,6 +1,6 @@
 //! SDF: places, axes, kinds of joints, nested and static models.
 
-use crate::common::{but, cases, has, has_all};
+use crate::common::*;
 use crate::robots::mjcf::toml_of;
 use crate::robots::{figures, none, refused};
 use ozols::robots::{Options, import};

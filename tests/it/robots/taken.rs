@@ -48,11 +48,11 @@ fn models_that_nothing_holds_float() {
 
 #[test]
 fn lights_and_floors_are_no_mechanisms() {
-    let at = tempfile::tempdir().unwrap();
+    let at = tempdir().unwrap();
     let model = format!("<model name='m'>{LINKS}{HELD}{HINGE}</model>");
     let include = |uri: &str| format!("<include><uri>{uri}</uri></include>");
     let lamp = at.path().join("lamp.sdf");
-    std::fs::write(&lamp, sdf("<light name='l' type='point'/>")).unwrap();
+    fs::write(&lamp, sdf("<light name='l' type='point'/>")).unwrap();
     let world = |uri: &str| sdf(&format!("<world name='w'>{}{model}</world>", include(uri)));
     for (uri, code) in [
         ("model://sun", 0),
@@ -61,7 +61,7 @@ fn lights_and_floors_are_no_mechanisms() {
         ("model://nowhere", 2),
     ] {
         let file = at.path().join("w.sdf");
-        std::fs::write(&file, world(uri)).unwrap();
+        fs::write(&file, world(uri)).unwrap();
         let (found, out, err) = ran(&["lint", file.to_str().unwrap()]);
         assert_eq!(found, Some(code), "{uri}: {out}{err}");
     }

@@ -170,10 +170,10 @@ fn what_could_hold_is_reported_and_what_could_not_is_not() {
 // The file of loops may be left out by mistake: that it is there is said, with its rows.
 #[test]
 fn loops_beside_a_description_are_named() {
-    let at = tempfile::tempdir().unwrap();
+    let at = tempdir().unwrap();
     let put = |name: &str, text: &str| {
         let path = at.path().join(name).display().to_string();
-        std::fs::write(&path, text).unwrap();
+        fs::write(&path, text).unwrap();
         path
     };
     let urdf = put(
@@ -186,7 +186,7 @@ fn loops_beside_a_description_are_named() {
     );
     let side = put("robot.yaml", "closed_loop: [[tip, nowhere]]\ntype: [6d]\n");
     done(&["lint", &urdf]);
-    std::fs::write(&side, "closed_loop: [[tip, base]]\ntype: [3d]\n").unwrap();
+    fs::write(&side, "closed_loop: [[tip, base]]\ntype: [3d]\n").unwrap();
     let (code, out, _) = ran(&["lint", &urdf]);
     assert!(
         code == Some(1) && out.contains("give robot.yaml as `loops`") && out.contains("3 rows"),

@@ -282,11 +282,11 @@ fn most_variants_of_six_contours_in_space_are_counted_or_bounded() {
 /// Whatever the budget, no row says that more variants are admissible than have no redundant constraints.
 #[test]
 fn bounds_do_not_contradict_each_other() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("ladder.toml");
     let mut cut = 0;
     for (seed, spatial) in [(1, false), (2, false), (3, true), (4, true)] {
-        std::fs::write(&path, ladder(3, seed, spatial)).unwrap();
+        fs::write(&path, ladder(3, seed, spatial)).unwrap();
         for nodes in [1, 3, 10, 30, 60, 100, 200, 400, 800, 1600, 3200] {
             let nodes = nodes.to_string();
             let args = [

@@ -89,7 +89,7 @@ proptest! {
 fn both_ends_of_what_is_built_in_meet() {
     let mut edges = 0;
     for name in ozols::builtin::names() {
-        let m = crate::common::built_in(name);
+        let m = built_in(name);
         let exact = exact_field(&m, 0).unwrap();
         for (keep_output, max_redundant) in [(false, 0), (true, 0), (true, 1), (false, 3)] {
             let conditions = Conditions {

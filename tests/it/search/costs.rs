@@ -5,7 +5,7 @@ use ozols::search::question::conditions::InState;
 
 /// A folder with the table of costs, changed, and the path to it.
 fn table(from: &str, to: &str) -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("costs.toml");
     fs::write(&path, changed(&out(&["show", "costs"]), from, to)).unwrap();
     let path = path.to_str().unwrap().to_owned();
@@ -26,7 +26,7 @@ fn a_type_that_is_dear_is_chosen_no_more() {
         let args = ["search", "gripper-10", "--top", "1", "--format", "json"];
         json(&[&args, more].concat())["variants"][0].clone()
     };
-    let has = |v: &serde_json::Value, t: &str| v["changes"].to_string().contains(t);
+    let has = |v: &Value, t: &str| v["changes"].to_string().contains(t);
     let before = first(&[]);
     let (_folder, path) = table("\nspherical = 2\n", "\nspherical = 90\n");
     let after = first(&["--costs", &path]);
@@ -39,7 +39,7 @@ fn a_type_that_is_dear_is_chosen_no_more() {
 
 #[test]
 fn the_costs_of_a_file_stand_where_the_table_says_nothing() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let own = out(&["show", "gripper-10"]) + "\n[search.costs]\nlink = 7\nspherical = 3\n";
     fs::write(at("own.toml"), own).unwrap();
@@ -89,7 +89,7 @@ fn what_is_no_cost_is_refused_with_its_line_and_a_remedy() {
 /// what a hinge costs.
 #[test]
 fn a_custom_joint_costs_a_hinge_at_the_files_price_and_more() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let list = |price: &str| {
         let text = out(&["show", "four-bar"]);
         let cut = text.find("[search]").unwrap();

@@ -1,17 +1,14 @@
 //! Searches of a clamped state: what is held, what harms, what relieves, and what is said where nothing is found.
 
+use crate::common::*;
 mod mirrored;
 mod relieved;
 
-use crate::common::*;
-use std::path::PathBuf;
-use tempfile::TempDir;
-
 /// A file that is gone with its folder.
 pub(crate) fn file(text: &str) -> (TempDir, String) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path: PathBuf = folder.path().join("m.toml");
-    std::fs::write(&path, text).unwrap();
+    fs::write(&path, text).unwrap();
     let path = path.to_str().unwrap().to_owned();
     (folder, path)
 }

@@ -1,13 +1,13 @@
 //! Ideas against a slow twin: every variant listed, its pattern made of cycles found by walking.
 
+use crate::common::*;
 mod minimal;
 mod named;
 mod textbook;
 mod toggle;
 mod why;
 
-use crate::common::*;
-use ozols::geom::vector::{cross, real, unit};
+use ozols::geom::vector::{cross, unit};
 use ozols::model::mechanism::JointOption;
 use ozols::search::answer::ideas::Idea;
 use ozols::search::answer::k_best::Assignment;
@@ -373,9 +373,9 @@ fn people_are_told_ideas_and_programs_variants() {
         !every.contains("stands for") && every.contains("--variant 1"),
         "{every}"
     );
-    let idea = |more: &[&str]| -> serde_json::Value {
+    let idea = |more: &[&str]| -> Value {
         let said = search(&[&["--format", "json"], more].concat());
-        let found: serde_json::Value = serde_json::from_str(&said).unwrap();
+        let found: Value = serde_json::from_str(&said).unwrap();
         found["variants"][0]["idea"].clone()
     };
     assert!(idea(&[]).is_null());

@@ -49,7 +49,7 @@ fn mesh(rows: usize, columns: usize, seed: u64) -> (String, usize) {
 #[test]
 fn what_the_plane_decides_takes_no_step() {
     for (rows, columns) in [(3, 4), (4, 4), (4, 5)] {
-        let (text, joints) = mesh(rows, columns, crate::common::fresh());
+        let (text, joints) = mesh(rows, columns, fresh());
         let short = 2 * joints - 3 * (rows * columns - 1);
         let m = mechanism_from_str("mesh.toml", &text).unwrap();
         let search = Search::new(exact_field(&m, 0).unwrap(), m, Conditions::default()).unwrap();

@@ -1,7 +1,6 @@
 //! What self-stresses do to each joint: directions, moments, shares, harm, in the plane and in space.
 
 use crate::common::*;
-
 /// A bar on two slides along x, at x = 0 and x = 2: size ℓ = 1, the root mean square distance of the joints.
 fn slides() -> String {
     file_of(

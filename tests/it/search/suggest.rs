@@ -214,7 +214,7 @@ fn the_best_single_changes_of_the_gripper() {
 // A slot at any hinge of a plane mechanism only lets it loose.
 #[test]
 fn where_no_single_change_helps_it_is_said() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let file = folder.path().join("slots.toml");
     let m = built_in("four-bar");
     let mut copy = ozols::robots::formats::write(&m, "toml")
@@ -226,7 +226,7 @@ fn where_no_single_change_helps_it_is_said() {
     }
     let options = toml_edit::Array::from_iter(["revolute", "slotted"]);
     copy["search"]["options"] = toml_edit::value(options);
-    std::fs::write(&file, copy.to_string()).unwrap();
+    fs::write(&file, copy.to_string()).unwrap();
     let text = out(&["analyze", file.to_str().unwrap()]);
     has(&text, "No single change of 3 tried (the file's options)");
     has(&text, "ozols search ");

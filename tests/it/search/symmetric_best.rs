@@ -1,7 +1,6 @@
 //! The cheapest symmetric redesigns, against lists of all symmetric variants.
 
 use crate::common::*;
-
 /// Returns what a search of the gripper says with more flags.
 fn found(more: &[&str]) -> Value {
     let args = ["search", "gripper-10", "--format", "json"];

@@ -111,7 +111,7 @@ fn the_gripper_loses_no_variant_with_one_motion() {
     let args = ["search", "gripper-10", "--count", "--format", "json"];
     let orbits = json(&[&args[..], &["--one-per-orbit"]].concat());
     let symmetric = json(&[&args[..], &["--symmetric"]].concat());
-    let count = |v: &serde_json::Value| -> u64 { v["lasting"].word().parse().unwrap() };
+    let count = |v: &Value| -> u64 { v["lasting"].word().parse().unwrap() };
     assert_eq!(2 * count(&orbits), count(&v) + count(&symmetric));
 }
 
@@ -149,7 +149,7 @@ fn a_motion_that_is_not_followed_is_said_to_be() {
 fn the_drawn_pose_alone_is_searched_where_that_is_asked() {
     let args = ["search", "sarrus", "--format", "json", "--all"];
     let [all, pose] = [&[][..], &["--pose-only"]].map(|more| json(&[&args[..], more].concat()));
-    let given = |v: &serde_json::Value| v["variants"].list().len();
+    let given = |v: &Value| v["variants"].list().len();
     assert_eq!([given(&all), given(&pose)], [5, 6]);
     assert_eq!(all["admissible"], pose["admissible"]);
     assert_eq!(all["lasting"], "5");

@@ -1,213 +1,17 @@
 //! The search against a slow twin in rational arithmetic that shares no code with it, on random mechanisms.
 
-mod figures;
+use crate::common::*;
 pub(crate) mod less;
 mod random;
-mod rational;
 
-use self::figures::figures;
 pub(crate) use self::random::random;
 use self::random::random_coupled;
-use self::rational::{Q, allowed_twists, length, twists};
-use crate::common::*;
-use ozols::model::joint_type::CoupledFreedom;
+pub(crate) use crate::fuzz::readers::slow_search::{Twin, look, variants};
 use ozols::model::mechanism::Frame;
 use ozols::redundancy::stress::{SelfStress, StressVerdict};
 use ozols::search::check::brute::every_variant;
 use ozols::search::question::conditions::{InState, Symmetry};
 use proptest::prelude::*;
-
-/// What the contacts of the clamped state transmit.
-#[derive(Clone, Copy, PartialEq)]
-enum Contacts {
-    /// All they do.
-    Whole,
-    /// Faces: forces along them and moments; this one only a moment about its normal.
-    Friction(JointId),
-    /// Nothing.
-    Nothing,
-}
-
-pub(crate) struct Twin {
-    pub(crate) internal: u32,
-    pub(crate) external: i32,
-    /// Harmful redundant constraints among those that load contacts.
-    pub(crate) harmful: u32,
-    /// Whether the object moves with one of its jaws.
-    pub(crate) held: bool,
-    pub(crate) mobility: i64,
-    pub(crate) motion: usize,
-    pub(crate) changes: u32,
-}
-
-/// Looks at one variant: `choice[j]` is (option, unloading) of joint j.
-pub(crate) fn look(m: &Mechanism, clamped: bool, choice: &[(usize, Option<usize>)]) -> Twin {
-    let outputs: Vec<LinkId> = m
-        .link_ids()
-        .filter(|&l| m.links[l].role == Role::Output || m.search.hold.contains(&l))
-        .collect();
-    let rows = match m.mode {
-        Mode::Spatial => 6,
-        Mode::Planar { .. } => 3,
-    };
-    let contacts: Vec<JointId> = m
-        .joints_with_ids()
-        .filter(|(_, j)| {
-            j.states
-                .as_ref()
-                .is_some_and(|s| !s.contains(&StateId::FREE))
-        })
-        .map(|(j, _)| j)
-        .collect();
-    // In these files every contact is between a jaw and the object.
-    let pairs: Vec<(LinkId, LinkId)> = contacts
-        .iter()
-        .map(|&j| (m.joints[j].links[0], m.joints[j].links[1]))
-        .collect();
-    let of = |state: StateId, carried: Contacts| {
-        // An unloading joint is a joint in series with an extra link at the end of the list.
-        let mut links = m.links.len();
-        let mut joints: Vec<([LinkId; 2], Vec<Vec<Q>>)> = Vec::new();
-        // Where the columns of each joint's own option begin.
-        let mut own = vec![None; m.joints.len()];
-        for (j, joint) in m.joints_with_ids() {
-            let present = m.joints_in(state).any(|x| x == j);
-            let (option, unloading) = choice[j];
-            let frame = &joint.options[option].frame;
-            let kind = &joint.options[option].joint_type;
-            let mut span = allowed_twists(&m.mode, frame, kind);
-            let contact = contacts.contains(&j);
-            let part = [Freedom::Tz, Freedom::Rx, Freedom::Ry];
-            let whole = [part, [Freedom::Rz, Freedom::Tx, Freedom::Ty]].concat();
-            match carried {
-                Contacts::Friction(face) if contact && *kind == JointType::Fixed => {
-                    let more = &part[..if face == j { 3 } else { 1 }];
-                    span = twists(frame, &JointType::Custom(more.to_vec()));
-                }
-                Contacts::Nothing if contact => span = twists(frame, &JointType::Custom(whole)),
-                _ => {}
-            }
-            match unloading {
-                Some(u) => {
-                    let pad = LinkId::new(links);
-                    links += 1;
-                    let pad_joint = &joint.unloading[u];
-                    let extra = allowed_twists(&m.mode, &pad_joint.frame, &pad_joint.joint_type);
-                    // The pad of a contact is there while nothing is held, that of another joint goes with it.
-                    if present || contact {
-                        joints.push(([joint.links[0], pad], extra));
-                    }
-                    if present {
-                        own[j] = Some(joints.iter().map(|(_, t)| t.len()).sum::<usize>());
-                        joints.push(([pad, joint.links[1]], span));
-                    }
-                }
-                None if present => {
-                    own[j] = Some(joints.iter().map(|(_, t)| t.len()).sum());
-                    joints.push((joint.links, span));
-                }
-                None => {}
-            }
-        }
-        // Rates are in units of length 1, whatever the axis.
-        let entry = |e: CoupledFreedom| {
-            let option = &m.joints[e.joint].options[choice[e.joint].0];
-            let at = option
-                .joint_type
-                .freedoms()
-                .iter()
-                .position(|f| *f == e.freedom);
-            Some((own[e.joint]? + at?, length(&option.frame, e.freedom)))
-        };
-        let coupled: Vec<[(usize, Q); 2]> = m
-            .couplings
-            .iter()
-            .filter_map(|c| {
-                let ((a, x), (b, y)) = (entry(c.ends[0])?, entry(c.ends[1])?);
-                Some([(a, -c.ratio.as_rational()? * x), (b, y)])
-            })
-            .collect();
-        let used: std::collections::BTreeSet<LinkId> =
-            joints.iter().flat_map(|(l, _)| *l).collect();
-        let contours = joints.len() + 1 - used.len();
-        let searched = if state == StateId::FREE {
-            &[][..]
-        } else {
-            &pairs
-        };
-        // Options stand in the frame of the present joint, so that the driven freedom has the same name in each.
-        let driven = m.joints_with_ids().filter_map(|(j, joint)| {
-            let freedom = joint.driven_freedom()?;
-            let kind = &joint.options[choice[j].0].joint_type;
-            let at = kind.freedoms().iter().position(|f| *f == freedom)?;
-            Some(own[j]? + at)
-        });
-        let driven: Vec<usize> = driven.filter(|_| state == StateId::FREE).collect();
-        let f = figures(
-            links,
-            m.frame(),
-            &joints,
-            &coupled,
-            &outputs,
-            &driven,
-            searched,
-        );
-        let sigma = f.mobility + rows * contours + coupled.len() - f.freedoms;
-        (f, sigma as i32)
-    };
-    let whole = |state| of(state, Contacts::Whole);
-    let (free, internal) = whole(StateId::FREE);
-    let (mut external, mut harmful, mut held) = (0, 0, true);
-    if clamped {
-        let state = StateId::new(1);
-        let (f, sigma) = whole(state);
-        external = sigma - internal;
-        held = f.together.iter().any(|t| *t);
-        // Self-stresses that load contacts, and those of them that friction explains.
-        let idle = of(state, Contacts::Nothing).1;
-        let face = |j: &&JointId| {
-            m.joints[**j].options[choice[j.index()].0].joint_type == JointType::Fixed
-        };
-        let faces = contacts.iter().filter(face);
-        let harmless = faces
-            .map(|&j| of(state, Contacts::Friction(j)).1 - idle)
-            .max();
-        harmful = (sigma - idle - harmless.unwrap_or(0)) as u32;
-    }
-    let changes = choice
-        .iter()
-        .map(|(o, u)| u32::from(*o != 0) + u32::from(u.is_some()))
-        .sum();
-    Twin {
-        internal: internal as u32,
-        external,
-        harmful,
-        held,
-        mobility: free.mobility as i64,
-        motion: free.motion,
-        changes,
-    }
-}
-
-pub(crate) fn variants(m: &Mechanism, clamped: bool) -> Vec<Vec<(usize, Option<usize>)>> {
-    let mut out = vec![Vec::new()];
-    for (j, joint) in m.joints_with_ids() {
-        let free = m.joints_in(StateId::FREE).any(|x: JointId| x == j);
-        let choices: Vec<(usize, Option<usize>)> = if free || clamped {
-            std::iter::once(None)
-                .chain((0..joint.unloading.len()).map(Some))
-                .flat_map(|u| (0..joint.options.len()).map(move |o| (o, u)))
-                .collect()
-        } else {
-            vec![(0, None)]
-        };
-        out = out
-            .into_iter()
-            .flat_map(|v| choices.iter().map(move |&c| [v.clone(), vec![c]].concat()))
-            .collect();
-    }
-    out
-}
 
 proptest! {
     #![proptest_config(crate::fuzz::runs(64))]
@@ -308,7 +112,7 @@ fn agrees(
     let good = |t: &&Twin| t.internal <= allowed;
     let better = |t: &&Twin| good(t) && suits(state, t) && (!keep || t.motion == present.motion);
     let tally = |list: Vec<&Twin>| {
-        let mut out: BTreeMap<(i64, u32), num_bigint::BigUint> = BTreeMap::new();
+        let mut out: BTreeMap<(i64, u32), BigUint> = BTreeMap::new();
         for t in list {
             *out.entry((t.mobility, t.changes)).or_default() += 1u8;
         }
@@ -378,9 +182,9 @@ proptest! {
         let before = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
         // Turn the whole about z by a right angle and shift it.
         let mut moved = m.clone();
-        let shift = ozols::geom::expr::Expr::from(i64::from(move_by));
+        let shift = Expr::from(i64::from(move_by));
         for j in &mut moved.joints {
-            let turn = |v: &[ozols::geom::expr::Expr; 3]| [-&v[1], v[0].clone(), v[2].clone()];
+            let turn = |v: &[Expr; 3]| [-&v[1], v[0].clone(), v[2].clone()];
             let f = &j.frame;
             let point = turn(&f.point);
             let frame = Frame {

@@ -1,7 +1,6 @@
 //! Files that offer no joint types, joint types that would help, and symmetry that no file names.
 
 use crate::common::*;
-
 /// Returns the JSON of a command whatever its exit code, and that code.
 fn answer(args: &[&str]) -> (Value, Option<i32>) {
     let o = run(args);

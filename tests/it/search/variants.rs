@@ -1,7 +1,6 @@
 //! Variants of a search's list as mechanisms of their own, and what to do where there are none.
 
 use crate::common::*;
-
 /// Flags of a question and places in its list.
 const LISTS: [(&str, &[&str], &[usize]); 7] = [
     ("gripper-10", &[], &[1, 7]),
@@ -42,7 +41,7 @@ fn listed(file: &str, flags: &[&str], k: usize) -> (Value, Value) {
 
 #[test]
 fn an_exported_variant_has_the_figures_of_the_list() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let mut pads = 0;
     for (file, flags, places) in LISTS {
         for &k in places {
@@ -75,7 +74,7 @@ fn an_exported_variant_has_the_figures_of_the_list() {
                 assert_eq!(e["redundant_by_rank"].as_u64(), Some(external));
                 assert_eq!(e["agree"], true);
             }
-            let written = std::fs::read_to_string(path).unwrap();
+            let written = fs::read_to_string(path).unwrap();
             pads += usize::from(written.contains("a-8 unloading"));
             for change in variant["changes"].list() {
                 let head = written
@@ -158,7 +157,7 @@ fn what_would_help_where_nothing_is_found() {
         ],
         &["gripper-10", "--options", "revolute,cylindrical"],
     ];
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     for q in questions {
         let o = run(&with(&with(&["search"], q), &["--format", "json"]));
         assert_eq!(o.status.code(), Some(1), "{q:?}");
@@ -231,8 +230,7 @@ fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
     }
     let sample = rows(&["--sample", "3020"]);
     assert_eq!(sample.len(), 3020);
-    let mut drawn: std::collections::BTreeMap<&String, usize> =
-        whole.iter().map(|row| (row, 0)).collect();
+    let mut drawn: BTreeMap<&String, usize> = whole.iter().map(|row| (row, 0)).collect();
     for row in &sample {
         *drawn.get_mut(row).unwrap() += 1;
     }
@@ -249,7 +247,7 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         .find(|l| l.contains("ozols export lever-gripper"))
         .unwrap();
     has(next, "--rank cost --variant 1");
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let to = folder.path().join("one.toml");
     let of = [
         "export",
@@ -268,9 +266,7 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
     let mut lines = all.lines();
     let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
     let first: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let exported =
-        ozols::file::text::mechanism_from_str("one.toml", &std::fs::read_to_string(to).unwrap())
-            .unwrap();
+    let exported = mechanism_from_str("one.toml", &fs::read_to_string(to).unwrap()).unwrap();
     let joints = heads
         .iter()
         .zip(&first)

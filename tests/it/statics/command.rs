@@ -1,11 +1,10 @@
 //! `ozols statics` as its users meet it.
 
 use super::{file_with, r};
-use crate::common::{json, out, ozols};
-use std::fs;
+use crate::common::*;
 
 fn refused(text: &str, line_with: &str, parts: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("bad.toml");
     fs::write(&path, text).unwrap();
     let o = ozols(&["statics", path.to_str().unwrap()])
@@ -173,7 +172,7 @@ fn text_json_and_csv_tell_the_same() {
         (Some(4), 3)
     );
     let last = &v["positions"][2];
-    assert!((last["drive"].as_f64().unwrap() - std::f64::consts::PI).abs() < 1e-12);
+    assert!((last["drive"].as_f64().unwrap() - PI).abs() < 1e-12);
     let d = |method: &str| {
         last["contour_groups"][0]["methods"][method]["D"][1]
             .as_f64()
@@ -216,16 +215,12 @@ fn structure_under_every_drive() {
 
 #[test]
 fn charts_and_stability_go_to_folders() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let charts = folder.path().join("charts");
-    out(&[
-        "statics",
-        "parallel-shears",
-        "--stroke",
-        "0:6.28:8",
-        "--svg",
-        charts.to_str().unwrap(),
-    ]);
+    out(&format!(
+        "statics parallel-shears --stroke 0:6.28:8 --svg {}",
+        charts.display()
+    ));
     for name in [
         "group-4-6-7-10.svg",
         "group-5-8-9-11.csv",
@@ -267,21 +262,17 @@ fn a_dead_point_ends_the_cycle_with_exit_code_1() {
     ];
     let mass = |l: &str| (l == "2").then_some((1.0, [1.0, 2.25], 0.1));
     let text = file_with(&joints, &mass, "[workload]\ngravity = [0, -9.81, 0]\n");
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("rocker.toml");
     fs::write(&path, text).unwrap();
-    let o = ozols(&[
-        "statics",
-        path.to_str().unwrap(),
-        "--stroke",
-        "0:180deg:90",
-        "--format",
-        "json",
-    ])
+    let o = ozols(&format!(
+        "statics {} --stroke 0:180deg:90 --format json",
+        path.display()
+    ))
     .output()
     .unwrap();
     assert_eq!(o.status.code(), Some(1));
-    let v: serde_json::Value = serde_json::from_slice(&o.stdout).unwrap();
+    let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     // Coupler and rocker in line when the crank's end is as far from the rocker's pivot as both are long.
     let (crank, ground) = (2.0f64, 3.0f64);
     let both = (4.0f64 + 0.25).sqrt() + (1.0f64 + 6.25).sqrt();

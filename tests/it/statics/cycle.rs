@@ -1,8 +1,8 @@
 //! Positions over a cycle.
 
 use super::{file, four_bar_file, mechanism, p, r, shears};
+use crate::common::*;
 use ozols::model::loads::Stroke;
-use ozols::model::mechanism::StateId;
 use ozols::statics::cycle::{Statics, statics};
 use ozols::statics::planar::PairKind;
 use ozols::statics::pose::Pose;
@@ -36,8 +36,8 @@ fn over(text: &str, [from, to]: [f64; 2], steps: usize, speeds: &[f64]) -> Stati
 
 #[test]
 fn shears_go_round_and_their_knives_meet() {
-    let turn = std::f64::consts::TAU;
-    let s = over(shears(), [0.0, turn], 72, &[std::f64::consts::PI]);
+    let turn = TAU;
+    let s = over(shears(), [0.0, turn], 72, &[PI]);
     // After a whole turn everything is where it was, the crank turned by 2π.
     let (first, last) = (&s.moments[0].pose, &s.moments[72].pose);
     let body = |name: &str| {

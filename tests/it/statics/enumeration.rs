@@ -1,10 +1,8 @@
 //! All Assur groups of 2, 4 and 6 links, found among all ways to join that many links.
 
-use itertools::Itertools;
-use ozols::model::mechanism::{JointId, LinkId};
+use crate::common::*;
 use ozols::statics::assur::decompose;
 use ozols::statics::planar::{Body, Pair, PairKind, PlanarMechanism};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Links 1 to n with these inner pairs, and so many pairs of each link to the frame.
 fn group(n: usize, inner: &[(usize, usize)], outer: &[usize]) -> PlanarMechanism {

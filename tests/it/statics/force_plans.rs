@@ -1,10 +1,6 @@
 //! What the kinetostatics of the shears goes through: accelerations, inertia forces, tangential reactions, force plans.
 
-use crate::common::{built_in, json, near, out};
-use serde_json::Value;
-use std::collections::BTreeMap;
-use std::fs;
-
+use crate::common::*;
 fn number(v: &Value) -> f64 {
     v.as_f64().unwrap()
 }
@@ -30,14 +26,7 @@ fn point(position: &Value, joint: &str) -> [f64; 2] {
 /// Accelerations are the second differences of the places by time; inertia forces and moments are by D'Alembert.
 #[test]
 fn accelerations_are_those_of_the_places() {
-    let found = json(&[
-        "statics",
-        "parallel-shears",
-        "--stroke",
-        "0.4:0.5:100",
-        "--format",
-        "json",
-    ]);
+    let found = json("statics parallel-shears --stroke 0.4:0.5:100 --format json");
     let positions = found["positions"].as_array().unwrap();
     let shears = built_in("parallel-shears");
     let step = 0.001 / shears.loads.drive_speeds[0];
@@ -72,14 +61,7 @@ fn accelerations_are_those_of_the_places() {
 /// [Bychkov, Dvornikov & Zhukov 2018]: R46τ = (F_и6 l + G6 l)/l_FM, R47τ alike, from the moments about the rods' far ends.
 #[test]
 fn tangential_reactions_are_the_moments_over_the_rods() {
-    let found = json(&[
-        "statics",
-        "parallel-shears",
-        "--stroke",
-        "0:360deg:8",
-        "--format",
-        "json",
-    ]);
+    let found = json("statics parallel-shears --stroke 0:360deg:8 --format json");
     let shears = built_in("parallel-shears");
     let gravity = shears
         .loads
@@ -133,16 +115,12 @@ fn visible(svg: &str, name: &str) -> bool {
 /// Every plan closes, and those of the δ-point method add up as those of the full solve do.
 #[test]
 fn force_plans_close_beside_those_of_the_full_solve() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let at = folder.path().join("plans");
-    out(&[
-        "statics",
-        "parallel-shears",
-        "--stroke",
-        "0:360deg:36",
-        "--svg",
-        at.to_str().unwrap(),
-    ]);
+    out(&format!(
+        "statics parallel-shears --stroke 0:360deg:36 --svg {}",
+        at.display()
+    ));
     for group in ["4-6-7-10", "5-8-9-11"] {
         let svg = fs::read_to_string(at.join(format!("force-plan-{group}.svg"))).unwrap();
         let names = [

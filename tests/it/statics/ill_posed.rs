@@ -1,7 +1,6 @@
 //! Linkages that are no Assur groups are told by how much.
 
-use ozols::file::text::mechanism_from_str;
-use ozols::model::mechanism::StateId;
+use crate::common::*;
 use ozols::statics::assur::{AssurError, decompose};
 use ozols::statics::planar::PlanarMechanism;
 

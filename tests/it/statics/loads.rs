@@ -1,10 +1,8 @@
 //! What loads a linkage in its plane: components by hand, power, and when the plane does not do.
 
 use super::mechanism;
-use crate::common::to_nine_digits;
-use ozols::geom::expr::Expr;
+use crate::common::*;
 use ozols::model::loads::{ExternalForce, Inertia, MassProperties};
-use ozols::model::mechanism::{LinkId, Mechanism, StateId};
 use ozols::statics::cycle::statics;
 use ozols::statics::kinetostatics::LoadSource;
 use ozols::statics::planar::PlanarMechanism;

@@ -1,8 +1,8 @@
 //! The equations of [Bychkov, Dvornikov & Zhukov 2018] one by one, against reactions found in exact arithmetic.
 
 use super::{mechanism, shears};
+use crate::common::*;
 use ozols::model::loads::Stroke;
-use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::equilibrium;
 use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::cycle::statics;
@@ -30,7 +30,7 @@ fn force(g: &GroupPose, link: usize) -> [f64; 2] {
 fn each_equation_gives_its_component() {
     let stroke = Stroke {
         from: 0.0,
-        to: std::f64::consts::TAU,
+        to: TAU,
         steps: 24,
     };
     let s = statics(&mechanism(shears()), StateId::FREE, Some(stroke)).unwrap();

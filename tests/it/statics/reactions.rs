@@ -1,10 +1,8 @@
 //! Loads and reactions: the methods agree, and with energy.
 
 use super::{J, Mass, file_with, mechanism, p, r, shears};
-use itertools::Itertools;
-use ozols::geom::expr::Expr;
+use crate::common::*;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
-use ozols::model::mechanism::{LinkId, Mechanism, StateId};
 use ozols::statics::contour_group::ContourGroup;
 use ozols::statics::contour_group::pose::{GroupPose, GroupReactions};
 use ozols::statics::cycle::{Moment, Statics, statics};
@@ -23,7 +21,7 @@ fn over(text: &str, from: f64, to: f64, steps: usize) -> Statics {
 }
 
 fn shears_cycle() -> Statics {
-    over(shears(), 0.0, std::f64::consts::TAU, 72)
+    over(shears(), 0.0, TAU, 72)
 }
 
 /// Greatest force or moment by size left over on any body, about a point far from all, over the greatest load.
@@ -409,7 +407,7 @@ fn a_cylinder_bears_the_boom() {
 /// A force over part of a turn acts there in every turn.
 #[test]
 fn forces_come_again_in_each_turn() {
-    let turn = std::f64::consts::TAU;
+    let turn = TAU;
     let s = over(shears(), -turn, 2.0 * turn, 3 * 72);
     let cutting = |m: &Moment| {
         m.loads

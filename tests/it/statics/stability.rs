@@ -1,8 +1,8 @@
 //! Accuracy near each failure of the δ-point method, against exact arithmetic.
 
 use super::{mechanism, shears};
+use crate::common::*;
 use ozols::model::loads::Stroke;
-use ozols::model::mechanism::StateId;
 use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::contour_group::stability::{DistanceErrors, Failure, at_distance, samples};
 use ozols::statics::contour_group::{delta_point, equilibrium, projective};

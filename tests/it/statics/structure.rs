@@ -1,10 +1,9 @@
 //! Decomposition into Assur groups: published classifications, laws, and brute force.
 
+use crate::common::*;
 mod grown;
 
 use super::{J, file, mechanism, p, pair, planar, r};
-use itertools::Itertools;
-use ozols::model::mechanism::StateId;
 use ozols::statics::assur::{AssurError, Decomposition, alternatives, decompose};
 use ozols::statics::assur_class::Kind;
 use ozols::statics::planar::{BodyId, PlanarMechanism};

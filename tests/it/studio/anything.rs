@@ -4,7 +4,6 @@ use super::served::Served;
 use crate::common::*;
 use proptest::prelude::*;
 use proptest::sample::select;
-use serde_json::json;
 
 /// Values that fit a key of a file now and then, and mostly do not.
 fn value() -> impl Strategy<Value = Value> {
@@ -84,7 +83,7 @@ proptest! {
 
     #[test]
     fn is_refused_or_can_be_undone(all in prop::collection::vec(sent(), 40)) {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = tempdir().unwrap();
         let own = out(&["show", "gripper-10"]);
         fs::write(folder.path().join("mine.toml"), &own).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);

@@ -2,7 +2,6 @@
 
 use super::served::Served;
 use crate::common::*;
-use serde_json::json;
 
 fn spherical(joint: &str) -> Value {
     json!({ "edits": [{ "do": "set", "what": "joint", "id": joint, "key": "type", "value": "spherical" }], "revision": null })
@@ -19,7 +18,7 @@ fn names(folder: &Path) -> Vec<String> {
 
 #[test]
 fn every_change_can_be_undone_to_the_byte() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let own = out(&["show", "gripper-10"]);
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let s = Served::new(folder.path(), &["mine.toml"]);
@@ -54,7 +53,7 @@ fn every_change_can_be_undone_to_the_byte() {
 
 #[test]
 fn a_text_that_is_made_of_an_older_one_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let first = s.status()["revision"].clone();
     s.done("edit", &spherical("1-2"));
@@ -72,7 +71,7 @@ fn a_text_that_is_made_of_an_older_one_is_refused() {
 
 #[test]
 fn what_another_program_writes_is_taken_in_or_told() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let file = folder.path().join("mine.toml");
     let own = out(&["show", "four-bar"]);
     fs::write(&file, &own).unwrap();
@@ -113,7 +112,7 @@ fn what_another_program_writes_is_taken_in_or_told() {
 
 #[test]
 fn work_of_a_killed_program_is_offered() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let own = out(&["show", "four-bar"]);
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let mut first = Served::new(folder.path(), &["mine.toml"]);
@@ -151,7 +150,7 @@ fn work_of_a_killed_program_is_offered() {
 
 #[test]
 fn it_ends_with_its_last_window_and_with_ctrl_c() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let mut s = Served::new(folder.path(), &["four-bar"]);
     let (mut one, two) = (s.window(), s.window());
     one.next("look");
@@ -171,7 +170,7 @@ fn it_ends_with_its_last_window_and_with_ctrl_c() {
 
 #[test]
 fn what_cannot_be_opened_is_told() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     fs::create_dir(folder.path().join("sub")).unwrap();
     for [file, words] in cases::<2>(
         r"
@@ -182,7 +181,7 @@ fn what_cannot_be_opened_is_told() {
         new.json | neither a file nor a built-in mechanism
 ",
     ) {
-        let mut command = crate::common::ozols(&["studio", "--no-open", file]);
+        let mut command = ozols(&["studio", "--no-open", file]);
         let o = command.current_dir(folder.path()).output().unwrap();
         assert_eq!(o.status.code(), Some(2), "{file}");
         assert!(
@@ -195,7 +194,7 @@ fn what_cannot_be_opened_is_told() {
 
 #[test]
 fn a_file_that_is_wrong_is_opened_to_be_mended() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let own = out(&["show", "four-bar"]);
     fs::write(
         folder.path().join("mine.toml"),
@@ -218,7 +217,7 @@ fn a_file_that_is_wrong_is_opened_to_be_mended() {
 /// All names for unsaved work are taken, so that it cannot be kept: the page is told so until it is saved or kept.
 #[test]
 fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     fs::write(folder.path().join("mine.toml"), out(&["show", "four-bar"])).unwrap();
     let taken = |n: usize| match n {
         1 => folder.path().join("mine.toml.autosave"),
@@ -260,7 +259,7 @@ fn work_that_cannot_be_kept_is_told_until_it_is_saved() {
 #[test]
 fn a_full_disk_takes_no_work() {
     use std::process::Command;
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let own = out(&["show", "four-bar"]);
     fs::write(folder.path().join("mine.toml"), &own).unwrap();
     let mut shell = Command::new("sh");

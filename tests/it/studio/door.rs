@@ -1,8 +1,7 @@
 //! The door: the token, the host, pages of others, sizes and paths.
 
 use super::served::Served;
-use crate::common::{has_all, words};
-use serde_json::json;
+use crate::common::*;
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::Duration;
@@ -13,7 +12,7 @@ fn status(s: &Served, request: &str) -> u16 {
 
 #[test]
 fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let (host, token) = (&s.host, &s.token);
     let get =
@@ -64,7 +63,7 @@ fn who_has_not_the_token_or_comes_from_elsewhere_is_refused() {
 
 #[test]
 fn requests_are_bounded() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let head = s.head("POST", "edit");
     let long = format!("{head}X: {}\r\n\r\n", "x".repeat(40 << 10));
@@ -100,8 +99,8 @@ fn requests_are_bounded() {
 
 #[test]
 fn no_path_leads_out_of_the_file() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("secret.toml"), "name = \"secret\"\n").unwrap();
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("secret.toml"), "name = \"secret\"\n").unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     for path in words(
 "secret.toml ../secret.toml ..%2fsecret.toml picture/../../secret.toml picture/secret.svg export/../secret.toml
@@ -127,7 +126,7 @@ fn no_path_leads_out_of_the_file() {
         assert_eq!(code, 422, "{name}: {told}");
     }
     assert_eq!(s.post("begin", &json!({ "name": "../secret" })).0, 422);
-    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
     assert_eq!(left.len(), 1);
     s.done("save", &json!({ "name": "fine name.toml" }));
     assert!(folder.path().join("fine name.toml").is_file());
@@ -135,7 +134,7 @@ fn no_path_leads_out_of_the_file() {
 
 #[test]
 fn every_answer_keeps_others_out() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let mut stream = std::net::TcpStream::connect(&s.host).unwrap();
     let asked = format!("{}\r\n", s.head("GET", ""));
@@ -170,7 +169,7 @@ fn every_answer_keeps_others_out() {
 /// Who sends a byte now and then is let go as early as who sends none.
 #[test]
 fn a_head_that_never_ends_is_let_go() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let mut stream = TcpStream::connect(&s.host).unwrap();
     stream
@@ -190,7 +189,7 @@ fn a_head_that_never_ends_is_let_go() {
 /// Connections of others take no place of the windows, however many there are, and whether they say something or not.
 #[test]
 fn a_crowd_at_the_door_keeps_nobody_out() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let mut window = s.window();
     window.next("look");

@@ -5,7 +5,6 @@ use crate::fuzz::runs;
 use ozols::file::edit::{Edit, Thing, edited};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use serde_json::json;
 
 fn set(what: Thing, id: &str, key: &str, value: Value) -> Edit {
     let (id, key) = (id.to_owned(), key.to_owned());

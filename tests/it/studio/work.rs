@@ -2,11 +2,10 @@
 
 use super::served::Served;
 use crate::common::*;
-use serde_json::json;
 
 #[test]
 fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for name in ["gripper-10", "bennett"] {
         fs::write(folder.path().join("mine.toml"), out(&["show", name])).unwrap();
         let s = Served::new(folder.path(), &["mine.toml"]);
@@ -29,7 +28,7 @@ fn the_verdict_and_the_ideas_are_those_of_the_command_line() {
 
 #[test]
 fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     for (name, ideas) in [
         ("gripper-10", 4),
         ("four-bar", 3),
@@ -69,7 +68,7 @@ fn an_idea_that_is_taken_does_what_it_says_and_keeps_the_comments() {
 /// Where nothing is found each wider request can be asked, and the first one again.
 #[test]
 fn a_wider_request_is_asked_for_by_its_number() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let own = out(&["show", "bennett"]);
     let few = own.replace(r#""cylindrical", "universal", "spherical""#, r#""slotted""#);
     assert_ne!(few, own);
@@ -98,7 +97,7 @@ fn a_wider_request_is_asked_for_by_its_number() {
 
 #[test]
 fn a_search_ends_when_another_text_comes() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     fs::write(
         folder.path().join("mine.toml"),
         out(&["show", "gripper-10"]),
@@ -126,7 +125,7 @@ fn a_search_ends_when_another_text_comes() {
 
 #[test]
 fn a_change_is_tried_without_being_made() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let s = Served::new(folder.path(), &["four-bar"]);
     let before = s.status()["revision"].clone();
     let edit = |value: Value| json!({ "edits": [{ "do": "set", "what": "joint", "id": "1-2", "key": "point", "value": value }], "revision": null });
@@ -141,7 +140,7 @@ fn a_change_is_tried_without_being_made() {
 
 #[test]
 fn a_description_takes_an_idea_and_no_other_change() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/robots/gripper.xml");
     fs::copy(robot, folder.path().join("gripper.xml")).unwrap();
     let s = Served::new(folder.path(), &["gripper.xml"]);

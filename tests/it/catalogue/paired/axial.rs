@@ -5,9 +5,7 @@ use super::{
     Built, LAID, are_images, at, built, known_three, number, ok, pulls_as_its_file_says, rows,
     scheme_in,
 };
-use std::collections::BTreeSet;
-use std::sync::OnceLock;
-use tempfile::tempdir;
+use crate::common::*;
 
 /// Every structure of up to eight links, without the weight of a part, which acts across all planes.
 fn axial() -> &'static str {
@@ -17,7 +15,7 @@ fn axial() -> &'static str {
         let file = tempfile::NamedTempFile::new().unwrap();
         let text = "links = \"4..8\"\njaws = 3\ninputs = [\"slide\"]\nsymmetries = [\"threefold\"]\n\
              pairs = [\"slide\", \"gear\", \"slot\"]\nideas = 1\n[workload]\npart = 0\n";
-        std::fs::write(file.path(), text).unwrap();
+        fs::write(file.path(), text).unwrap();
         file
     });
     let spec = spec.path().to_str().unwrap();

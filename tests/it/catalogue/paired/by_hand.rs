@@ -1,7 +1,7 @@
 //! Well-known schemes laid out by hand, against force curves that were published with them (`tests/data/forces.json`).
 
 use super::number;
-use crate::common::data;
+use crate::common::*;
 use ozols::chains::classics::classics;
 use ozols::synthesis::direction::WholeDirection;
 use ozols::synthesis::figures::{LayoutFigures, figures};
@@ -11,7 +11,6 @@ use ozols::synthesis::rules::Rules;
 use ozols::synthesis::sketch::Sketch;
 use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::{Limits, Task};
-use serde_json::Value;
 
 /// The task of `forces.json`: tips 30 mm apart when closed, each opens by 10 mm. They are drawn closed.
 fn published_task() -> Task {

@@ -1,10 +1,8 @@
 //! Wedges with flat faces.
 
-use super::super::command::{at, ok};
+use super::super::command::at;
 use super::{first_of, known, rows};
-use crate::common::json;
-use serde_json::Value;
-use tempfile::tempdir;
+use crate::common::*;
 
 /// A wedge with flat faces has two constraints more that are redundant than one with pins in its slots, both in the plane, and pulls by half
 /// the cotangent of its angle (`dims.json`) all the same; its redesigns are as many by trying all.
@@ -34,7 +32,7 @@ fn flat_faces_are_redundant_in_the_plane_already() {
         assert!((number(&flat, key) / half - 1.0).abs() < 1e-3, "{flat}");
     }
     let toml = at(&folder, "flat.toml");
-    std::fs::write(&toml, flat["mechanism"].as_str().unwrap()).unwrap();
+    fs::write(&toml, flat["mechanism"].as_str().unwrap()).unwrap();
     let tried = json(&["search", &toml, "--method", "brute", "--format", "json"]);
     assert_eq!(
         tried["determinate"].to_string(),

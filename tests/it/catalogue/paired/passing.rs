@@ -1,9 +1,8 @@
 //! Links that cross and pass each other in planes.
 
-use super::super::command::{at, ok};
+use super::super::command::at;
 use super::rows;
-use serde_json::Value;
-use tempfile::tempdir;
+use crate::common::*;
 
 /// Links may cross as often as they like where there are planes in which they pass each other over the whole stroke, and six times
 /// where there are none.
@@ -12,7 +11,7 @@ fn what_crosses_often_passes_in_planes() {
     let folder = tempdir().unwrap();
     let file = at(&folder, "turned.db");
     let words = "catalog build --links 6 --pairs slot --symmetry half-turn --ideas 0 --quiet -o";
-    ok(&words.split(' ').chain([file.as_str()]).collect::<Vec<_>>());
+    ok(&format!("{words} {file}"));
     let all = rows(
         &file,
         "SELECT no_layout, crossings, planes FROM structures LEFT JOIN layouts l ON l.structure = id LEFT JOIN planes p ON p.structure = id",

@@ -2,14 +2,12 @@
 //! places.
 
 use super::number;
-use crate::common::data;
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::PairKind;
 use ozols::chains::classics::classics;
 use ozols::synthesis::figures::figures;
 use ozols::synthesis::layout::{layout, most_symmetric};
 use ozols::synthesis::task::{Aim, Limits, Task};
-use serde_json::Value;
 
 /// The limits of `forces.json`: pins at 3 mm to 40 mm from the middle, tips 20 mm ahead of hinges and 30 mm apart when closed, each opening by
 /// 10 mm. They are drawn closed, so that all has the room of a rounding.

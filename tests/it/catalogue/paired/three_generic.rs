@@ -1,29 +1,22 @@
 //! Three jaws with slides, gears and slots, laid out without symmetry.
 
-mod every_way;
+use crate::common::*;
+pub(in super::super) mod every_way;
 
 use super::super::carried_on::scattered;
-use super::super::command::{at, cards_of, fails, ok, whole};
+use super::super::command::{at, cards_of, lines, whole};
 use super::{Built, LAID, built, pulls_as_its_file_says, rows};
-use crate::common::json;
 use ozols::chains::sharing::Menu;
 use ozols::chains::{PairKind, structure::PairStructure};
-use ozols::geom::vector::real;
-use ozols::model::joint_type::Freedom;
 use ozols::synthesis::listed::generic_structures;
-use std::collections::BTreeSet;
-use std::f64::consts::TAU;
-use std::sync::OnceLock;
-use tempfile::tempdir;
 
 const BUILD: &str = "catalog build --jaws 3 --symmetry generic --generic-pairs --quiet -o";
 
 /// Every structure of four links with two pairs at most that are no hinges.
 pub(super) fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
-    let more = "catalog build --pairs slide,gear,slot --at-most 2 --links 4 --ideas 2";
-    let words = more.split(' ').chain(BUILD.split(' ').skip(2));
-    built(&FILE, &words.collect::<Vec<_>>())
+    let more = words("catalog build --pairs slide,gear,slot --at-most 2 --links 4 --ideas 2");
+    built(&FILE, &[&more[..], &words(BUILD)[2..]].concat())
 }
 
 /// As many as there are by trying all, and these: every chain of labelled links, every choice of roles, up to every numbering.
@@ -142,73 +135,30 @@ fn jaws_that_slide_in_the_frame_go_straight_to_the_part() {
 #[test]
 fn it_is_queried_shown_drawn_and_merged() {
     let folder = tempdir().unwrap();
+    let [one, merged, page] = ["one.db", "merged.db", "page.html"].map(|n| at(&folder, n));
     let build = |file: &str, more: &str| {
-        let words = BUILD.split(' ').chain([file]).chain(more.split(' '));
-        ok(&words.collect::<Vec<_>>())
+        ok(&format!(
+            "{BUILD} {file} --pairs slide --links 4..5 --ideas 1 {more}"
+        ))
     };
-    let small = "--pairs slide --links 4..5 --ideas 1";
-    let one = at(&folder, "one.db");
-    assert!(build(&one, small).contains("22 structures added"));
+    has(&build(&one, ""), "22 structures added");
+    has(&build(&one, "--threads 1"), "0 structures added");
     let parts = [1, 2].map(|i| {
         let part = at(&folder, &format!("{i}.db"));
-        build(&part, &format!("{small} --shard {i}/2"));
+        build(&part, &format!("--shard {i}/2"));
         part
     });
-    let merged = at(&folder, "merged.db");
     ok(&["catalog", "merge", &parts[0], &parts[1], "-o", &merged]);
     assert_eq!(whole(&merged), whole(&one));
-    let row = &rows(
-        &one,
-        "SELECT id FROM structures JOIN pairs ON structure = id WHERE slides = 2 AND no_layout IS NULL LIMIT 1",
-    )[0];
-    let id = row["id"].as_str().unwrap();
+    let sql = "SELECT id FROM structures JOIN pairs ON structure = id WHERE slides = 2 AND no_layout IS NULL LIMIT 1";
+    let id = &lines(&one, sql)[0];
     let shown = ok(&["catalog", "show", &one, id]);
-    assert!(
-        shown.contains("round the part") && shown.contains("laid out generic"),
-        "{shown}"
+    has_all(
+        &shown,
+        &["round the part", "laid out generic", "(2 slides)"],
     );
-    assert!(shown.contains("(2 slides)"), "{shown}");
-    let page = at(&folder, "page.html");
     ok(&["catalog", "page", &one, "-o", &page]);
-    let html = std::fs::read_to_string(&page).unwrap();
-    let cards = cards_of(&html);
-    let card = cards.iter().find(|c| c["id"] == *id).unwrap();
+    let cards = cards_of(&fs::read_to_string(&page).unwrap());
+    let card = cards.iter().find(|c| c["id"] == **id).unwrap();
     assert!(card["tip_c_dx"].is_number(), "{card}");
-}
-
-#[test]
-fn what_is_not_laid_out_is_refused_with_a_way_out() {
-    let folder = tempdir().unwrap();
-    let file = at(&folder, "none.db");
-    for (words, says) in [
-        (
-            "--pairs slide --links 4 --one-pin with",
-            "leave it out, or ask for two (--jaws 2)",
-        ),
-        (
-            "--pairs slide --links 4..9",
-            "leave generic_pairs (--generic-pairs) out for more",
-        ),
-        (
-            "--pairs slide --links 4 --parallel only",
-            "each side is in a plane of its own",
-        ),
-        (
-            "--pairs slide --links 3",
-            "three jaws need at least four links",
-        ),
-        ("--pairs slide --links 5", "the number of links is even"),
-        ("--links 4", "--pairs"),
-    ] {
-        let words: Vec<&str> = BUILD
-            .split(' ')
-            .chain([&*file])
-            .chain(words.split(' '))
-            .collect();
-        fails(&words, says);
-        assert!(!std::path::Path::new(&file).exists(), "{words:?}");
-    }
-    let says = "add it (--symmetry generic), or leave generic_pairs (--generic-pairs) out";
-    let words = "catalog build --jaws 3 --symmetry threefold --generic-pairs --pairs slide -o";
-    fails(&words.split(' ').chain([&*file]).collect::<Vec<_>>(), says);
 }

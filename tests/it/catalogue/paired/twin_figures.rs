@@ -1,12 +1,12 @@
 //! Efficiency, transmission, joint forces and room of layouts with slides, gears and slots, worked out anew from their files: all links
 //! moved, and all forces from the equilibrium of every link, teeth's among them. None of it is code that lays them out.
 
-mod filed;
+use crate::common::*;
+pub(in super::super) mod filed;
 
-use super::super::{dense_twin::place, gauss};
+use super::super::gauss;
 use super::{known, number, rows, some, three_generic};
-use filed::{FiledJoint, Gripper, Holds, Point, dot, length, quarter, sub, times};
-use serde_json::Value;
+use filed::{FiledJoint, Gripper, Holds, Point, To, dot, length, place, quarter, sub, times};
 use std::array::from_fn;
 
 /// The friction of a task that says nothing of it: coefficient, and in mm the radius of pins and the length of guides.
@@ -139,12 +139,12 @@ impl Gripper {
         out
     }
 
-    fn seen(&self, x: Vec<f64>) -> Looked<'_> {
+    pub(in super::super) fn seen(&self, x: Vec<f64>) -> Looked<'_> {
         let mut right = vec![0.0; x.len()];
         *right.last_mut().unwrap() = 1.0;
         Looked {
             of: self,
-            rates: gauss(&self.columns(&x, self.width(&x)), &right),
+            rates: gauss(&self.columns(&x, To::Width(self.width(&x))), &right),
             acts: self.acts(&x),
             x,
         }
@@ -152,7 +152,7 @@ impl Gripper {
 }
 
 /// A pose of a gripper: how all links go for a millimetre of the width, and what acts on them.
-struct Looked<'g> {
+pub(in super::super) struct Looked<'g> {
     of: &'g Gripper,
     x: Vec<f64>,
     rates: Vec<f64>,
@@ -161,7 +161,7 @@ struct Looked<'g> {
 
 impl Looked<'_> {
     /// The velocity of a point of a link that is there now.
-    fn speed(&self, link: usize, at: Point) -> Point {
+    pub(in super::super) fn speed(&self, link: usize, at: Point) -> Point {
         let [turning, u, v] = from_fn(|k| self.rates[3 * link + k]);
         let arm = sub(at, [self.x[3 * link + 1], self.x[3 * link + 2]]);
         let [x, y] = times(turning, quarter(arm));
@@ -172,6 +172,25 @@ impl Looked<'_> {
     fn against(&self, [u, v]: [usize; 2], at: Point) -> (f64, Point) {
         let turning = self.rates[3 * v] - self.rates[3 * u];
         (turning, sub(self.speed(v, at), self.speed(u, at)))
+    }
+
+    /// How fast the drive goes, in mm or rad.
+    pub(in super::super) fn drive(&self) -> f64 {
+        let input = self.of.input();
+        let at = self.of.on(&self.x, input, input.pin);
+        let (turning, goes) = self.against(input.links, at);
+        match input.holds {
+            Holds::Slide => dot(goes, self.of.along(&self.x, input, 0)),
+            _ => turning,
+        }
+    }
+
+    /// How fast each tip goes away from the part.
+    pub(in super::super) fn parting(&self) -> Vec<f64> {
+        let g = self.of;
+        let tips = g.outward().into_iter().enumerate();
+        tips.map(|(n, out)| dot(self.speed(g.jaws[n], g.tip(&self.x, n)), out))
+            .collect()
     }
 
     /// What the jaws do: of two a newton for a millimetre of the width, of three half as much again.
@@ -238,7 +257,7 @@ impl Looked<'_> {
     }
 
     /// The least angle between a rod and the motion across it at its faster end, in degrees.
-    fn rods(&self) -> f64 {
+    pub(in super::super) fn rods(&self) -> f64 {
         let g = self.of;
         let mut least = 90.0_f64;
         for link in (0..g.links).filter(|l| *l != g.input().links[1] && *l != g.frame) {
@@ -275,23 +294,61 @@ fn least(list: &[f64]) -> (f64, f64) {
     (list[at], change.fold(0.0, f64::max))
 }
 
+/// The figures of a gripper over its stroke; where a figure is of the worst pose, by how much worse it may be between poses.
+pub(in super::super) struct WorkedOut {
+    pub(in super::super) efficiency: (f64, f64),
+    pub(in super::super) transmission: (f64, f64),
+    pub(in super::super) peak: (f64, f64),
+    pub(in super::super) size: Point,
+    /// How far the drive goes, in mm or rad.
+    pub(in super::super) travel: f64,
+    /// The least and the greatest force of a jaw over what the drive takes, in N or N mm.
+    pub(in super::super) forces: [f64; 2],
+    pub(in super::super) turns: Vec<f64>,
+}
+
+impl WorkedOut {
+    pub(in super::super) fn new(g: &Gripper, [narrowest, widest]: [f64; 2]) -> WorkedOut {
+        let all: Vec<Looked<'_>> = g
+            .stroke(narrowest, widest)
+            .into_iter()
+            .map(|x| g.seen(x))
+            .collect();
+        for pose in &all {
+            // Forces and motion are worked out apart from each other: teeth that pressed in a wrong place would not do the work.
+            near(pose.given() / pose.done(), 1.0, 1e-6);
+        }
+        let list = |of: &dyn Fn(&Looked<'_>) -> f64| -> Vec<f64> { all.iter().map(of).collect() };
+        let range = |all: Vec<f64>| all.into_iter().minmax().into_option().unwrap();
+        let span = |all: Vec<f64>| {
+            let (least, most) = range(all);
+            most - least
+        };
+        let side = |k: usize| {
+            let points = all.iter().flat_map(|pose| g.outermost(&pose.x));
+            span(points.map(|p| p[k]).collect())
+        };
+        let (peak, change) = least(&list(&|pose| -pose.peak()));
+        let forces = range(list(&|pose| {
+            let drive = pose.acts.last().unwrap();
+            1.0 / length(drive.force).hypot(drive.moment)
+        }));
+        WorkedOut {
+            efficiency: least(&list(&|pose| pose.efficiency())),
+            transmission: least(&list(&|pose| pose.passed().min(pose.rods()))),
+            peak: (-peak, change),
+            size: [side(0), side(1)],
+            travel: span(list(&|pose| g.gone(&pose.x, g.input()))),
+            forces: forces.into(),
+            turns: (g.jaws.iter().map(|&j| span(list(&|pose| pose.x[3 * j])))).collect(),
+        }
+    }
+}
+
 /// The figures of a layout over its stroke: four digits of them are told, and poses lie a little beside those of the catalogue.
 fn is_as_worked_out(row: &Value) {
-    let g = Gripper::read(row["mechanism"].as_str().unwrap());
-    let (mut efficiencies, mut angles, mut peaks) = (Vec::new(), Vec::new(), Vec::new());
-    let mut sides = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    for x in g.stroke(number(row, "narrowest"), number(row, "widest")) {
-        for p in g.outermost(&x) {
-            sides = from_fn(|k| [sides[k][0].min(p[k]), sides[k][1].max(p[k])]);
-        }
-        let pose = g.seen(x);
-        // Forces and motion are worked out apart from each other: teeth that pressed in a wrong place would not do the work.
-        let work = pose.given() / pose.done();
-        assert!((work - 1.0).abs() < 1e-6, "{row}: {work}");
-        efficiencies.push(pose.efficiency());
-        angles.push(pose.passed().min(pose.rods()));
-        peaks.push(-pose.peak());
-    }
+    let g = Gripper::read(row["mechanism"].word());
+    let found = WorkedOut::new(&g, ["narrowest", "widest"].map(|key| number(row, key)));
     let near = |key: &str, found: f64, within: f64| {
         let told = number(row, key);
         assert!(
@@ -301,14 +358,14 @@ fn is_as_worked_out(row: &Value) {
             row["name"]
         );
     };
-    let (efficiency, change) = least(&efficiencies);
+    let (efficiency, change) = found.efficiency;
     near("efficiency", efficiency, 3e-4 + change);
-    let (angle, change) = least(&angles);
+    let (angle, change) = found.transmission;
     near("transmission", angle, 0.03 + change);
-    let (peak, change) = least(&peaks);
-    near("pin_force", -peak, 1e-9 - 1e-3 * peak + change);
-    near("width", sides[0][1] - sides[0][0], 0.1);
-    near("height", sides[1][1] - sides[1][0], 0.1);
+    let (peak, change) = found.peak;
+    near("pin_force", peak, 1e-9 + 1e-3 * peak + change);
+    near("width", found.size[0], 0.1);
+    near("height", found.size[1], 0.1);
 }
 
 fn all_of(file: &str) -> Vec<Value> {

@@ -1,8 +1,7 @@
 //! The classic schemes are structures of the count, and have the symmetries that independent programs found.
 
 use super::menu;
-use crate::common::data;
-use itertools::Itertools;
+use crate::common::*;
 use ozols::chains::PairKind;
 use ozols::chains::chain::Chain;
 use ozols::chains::classics::classics;

@@ -1,13 +1,11 @@
 //! Every essential structure of three and four links by its code, as the twin below numbers it and an independent program listed it.
 
 use super::{ANY, menu};
-use crate::common::data_bytes;
+use crate::common::*;
 use flate2::read::GzDecoder;
-use itertools::Itertools;
 use ozols::chains::PairKind;
 use ozols::chains::roles::{Roles, Subject};
 use ozols::chains::visit::visit_pair_chains;
-use std::collections::BTreeSet;
 use std::io::Read;
 use std::sync::Mutex;
 

@@ -1,7 +1,7 @@
 //! Cams that push with several moments.
 
 use super::{run_file, small_json, small_with};
-use crate::common::{Json, has, near};
+use crate::common::*;
 
 /// Moments by piece: their work by hand, told in the text and in JSON, and fed to every swing that comes to its latch.
 #[test]

@@ -1,7 +1,7 @@
 //! The long run of a programme repeated as it is written, against a plain integrator that runs it round after round.
 
 use super::drive;
-use crate::common::near;
+use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::drive::programme::{Endurance, Module};

@@ -1,7 +1,7 @@
 //! Small mechanisms made of bytes, searched as the program does and by looking at every variant: the counts are the same.
 
 use super::mechanism_files::told;
-use super::slow_search::{Choice, Figures, look as look_at, size, variants};
+use super::slow_search::{Choice, Twin, look as look_at, variants};
 use crate::common::*;
 use ozols::Mechanism;
 use ozols::search::answer::counts::Counts;
@@ -143,10 +143,7 @@ fn conditions(bytes: &mut Bytes<'_>) -> Conditions {
 /// How many variants there are of each kind.
 type Tally<K> = BTreeMap<K, String>;
 
-fn tally<'f, K: Ord>(
-    all: impl Iterator<Item = &'f Figures>,
-    kind: impl Fn(&Figures) -> K,
-) -> Tally<K> {
+fn tally<'f, K: Ord>(all: impl Iterator<Item = &'f Twin>, kind: impl Fn(&Twin) -> K) -> Tally<K> {
     let mut counts: BTreeMap<K, usize> = BTreeMap::new();
     for figures in all {
         *counts.entry(kind(figures)).or_default() += 1;
@@ -161,8 +158,8 @@ fn told_by<K: Ord + Clone, N: ToString>(counts: &BTreeMap<K, N>) -> Tally<K> {
 }
 
 /// The counts of a diagram are those of the variants that are meant.
-fn same(what: &str, counts: &Counts, seen: &[Figures], text: &str) {
-    let all = || seen.iter();
+fn same(what: &str, counts: &Counts, seen: &[&Twin], text: &str) {
+    let all = || seen.iter().copied();
     assert_eq!(
         told_by(&counts.by_mobility_and_changes),
         tally(all(), |f| (f.mobility, f.changes)),
@@ -170,7 +167,7 @@ fn same(what: &str, counts: &Counts, seen: &[Figures], text: &str) {
     );
     assert_eq!(
         told_by(&counts.by_redundant),
-        tally(all(), |f| f.redundant),
+        tally(all(), |f| f.internal),
         "{what} by σ of\n{text}"
     );
     assert_eq!(
@@ -193,12 +190,15 @@ pub(crate) fn look(bytes: &[u8]) -> String {
         Ok(m) => m,
         Err(e) => return told(&e),
     };
-    if size(&m) > MOST {
+    let size = m
+        .joint_ids()
+        .map(|j| m.joints[j].options.len() * (1 + m.joints[j].unloading.len()));
+    if size.product::<usize>() > MOST {
         return "large".to_owned();
     }
-    let all = variants(&m);
-    let seen: Vec<Figures> = all.iter().map(|v| look_at(&m, v)).collect();
-    let present = seen[0];
+    let all = variants(&m, false);
+    let seen: Vec<Twin> = all.iter().map(|v| look_at(&m, false, v)).collect();
+    let present = &seen[0];
     let found = &analyse(&m, &[StateId::FREE], Method::Modular).unwrap()[0];
     assert_eq!(
         (
@@ -206,7 +206,7 @@ pub(crate) fn look(bytes: &[u8]) -> String {
             found.redundant,
             found.working_mobility
         ),
-        (present.mobility, present.redundant as usize, present.motion),
+        (present.mobility, present.internal as usize, present.motion),
         "{text}"
     );
     let asked = conditions(&mut bytes);
@@ -221,21 +221,19 @@ fn compare(
     m: &Mechanism,
     search: &Search,
     all: &[Vec<Choice>],
-    seen: &[Figures],
+    seen: &[Twin],
     text: &str,
 ) -> String {
     let asked = &search.conditions;
     assert_eq!(search.size().to_string(), all.len().to_string(), "{text}");
-    let determinate = |f: &Figures| f.redundant <= asked.max_redundant;
-    let admissible = |f: &Figures| {
+    let determinate = |f: &Twin| f.internal <= asked.max_redundant;
+    let admissible = |f: &Twin| {
         determinate(f)
             && (!asked.keep_output || f.motion == seen[0].motion)
             && asked.max_mobility.is_none_or(|most| f.mobility <= most)
             && asked.max_changes.is_none_or(|most| f.changes <= most)
     };
-    let those = |is: &dyn Fn(&Figures) -> bool| -> Vec<Figures> {
-        seen.iter().copied().filter(|f| is(f)).collect()
-    };
+    let those = |is: &dyn Fn(&Twin) -> bool| seen.iter().filter(|f| is(f)).collect_vec();
     let diagrams = search.build(&|| false, &mut |_| {});
     let first = search.counts(&diagrams.determinate, false);
     let second = search.counts(&diagrams.admissible, true);
@@ -262,7 +260,7 @@ fn compare(
         assert!(admissible(figures), "{choices:?} of\n{text}");
         assert_eq!(
             (v.key.internal(), v.key.freedoms(), v.key.changes()),
-            (figures.redundant, figures.freedoms, figures.changes),
+            (figures.internal, figures.freedoms, figures.changes),
             "{choices:?} of\n{text}"
         );
         given.push(at);

@@ -1,10 +1,10 @@
 //! The same by a linear programme over edges of the friction cones, with a solver and wrenches of its own.
 
 use super::{At, part, vice};
+use crate::common::*;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use ozols::grip::force_closure::closure;
 use proptest::prelude::*;
-use std::f64::consts::TAU;
 
 type V = [f64; 3];
 

@@ -1,14 +1,13 @@
 //! A polyhedral linear programme brackets the holding force.
 
 use super::{COUPLINGS, assert_statics, cross3, force, held, lever, pose, pull};
-use crate::common::near;
+use crate::common::*;
 use microlp::{ComparisonOp, OptimizationDirection, Problem};
 use ozols::geom::vector::cross_plane as cross;
 use ozols::grip::contact::{Gripper, TouchingPose};
 use ozols::grip::holding::{ContactForce, HoldingOutcome, PartWrench, Spatial, hold};
 use ozols::model::grip::LeverDrive;
 use proptest::prelude::*;
-use std::f64::consts::TAU;
 
 /// Drive moment with each friction cone replaced by `facets` edges on it (too few forces, so too much moment), or by edges
 /// outside it (`outer`); `None` where it cannot be held.

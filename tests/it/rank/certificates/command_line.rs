@@ -1,10 +1,9 @@
 //! `ozols analyze --certificate` and `ozols verify`.
 
 use crate::common::*;
-
 #[test]
 fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("c.json");
     let path = path.to_str().unwrap();
     let plain = out(&["analyze", "gripper-10"]);
@@ -39,7 +38,7 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
         "{err}"
     );
     for garbled in ["", "{", "[]", "{\"format\": \"x\"}", "\u{0}"] {
-        std::fs::write(path, garbled).unwrap();
+        fs::write(path, garbled).unwrap();
         let (code, said, err) = ran(&["verify", "gripper-10", path]);
         assert_eq!((code, said.as_str()), (Some(2), ""));
         has(&err, "not a file of certificates");
@@ -51,7 +50,7 @@ fn certificates_are_written_and_confirmed_and_false_ones_rejected() {
 
 #[test]
 fn a_field_that_is_too_large_is_said_and_no_error() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (file, certificates) = (path("fine.toml"), path("c.json"));
     let text = out(&["show", "four-bar"]);
@@ -62,7 +61,7 @@ fn a_field_that_is_too_large_is_said_and_no_error() {
         &text[..at],
         &text[end..]
     );
-    std::fs::write(&file, fine).unwrap();
+    fs::write(&file, fine).unwrap();
     let (_, err) = done(&["analyze", &file, "--certificate", &certificates]);
     has(
         &err,

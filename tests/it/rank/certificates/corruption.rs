@@ -1,7 +1,7 @@
 //! Certificates made false, each in a way that has to be noticed.
 
 use super::{certified, field, sparse};
-use crate::common::words;
+use crate::common::*;
 use num_rational::BigRational;
 use ozols::linalg::number_ring::{Element, NumberRing};
 use ozols::rank::exact::certificate::{Budget, Certificate, certify_matrix};
@@ -164,7 +164,7 @@ pub(super) fn corruptions(m: &MatrixOverRing, good: &Certificate) -> Vec<(String
 
 #[test]
 fn corrupted_certificates_of_mechanisms_are_rejected() {
-    let mut flaws = std::collections::BTreeSet::new();
+    let mut flaws = BTreeSet::new();
     for name in ["gripper-10", "3-rps", "bennett", "stewart-gough", "tongs"] {
         let (m, good) = certified(name);
         for (what, c) in corruptions(&m, &good) {

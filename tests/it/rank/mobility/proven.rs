@@ -380,7 +380,7 @@ fn proofs_of_random_contours_are_not_contradicted_by_following_them() {
     let cases = std::env::var("OZOLS_FUZZ").map_or(600, |n| n.parse().unwrap());
     let seed = std::env::var("OZOLS_SEED").map_or(11, |n| n.parse().unwrap());
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut found_by = std::collections::BTreeMap::new();
+    let mut found_by = BTreeMap::new();
     for case in 0..cases {
         let text = two_contours(&mut random);
         let m = mechanism_from_str("x.toml", &text).unwrap();

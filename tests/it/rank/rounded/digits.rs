@@ -4,7 +4,6 @@ use crate::common::*;
 use crate::robots::none;
 use ozols::model::rounded::{Uncertainties, looks_rounded, uncertainties};
 use ozols::robots::{Options, import};
-use serde_json::json;
 
 /// A door on two hinges, with these two points and axes.
 pub(crate) fn door(points: [&str; 2], axes: [&str; 2], more: &str) -> String {
@@ -117,10 +116,7 @@ fn options_parameters_points_ratios_and_leads_are_read_alike() {
                  axis = [0, 0, 1]\nlead = 5.000\n";
     let m = read(&(door(["[1, 0, 0]", "[0, 0, 9]"], [Z, Z], "") + screw));
     let half = m.joints[2].frame.pitch.half_unit().unwrap();
-    assert!(
-        (half * std::f64::consts::TAU - 5e-4).abs() < 1e-15,
-        "{half}"
-    );
+    assert!((half * TAU - 5e-4).abs() < 1e-15, "{half}");
 }
 
 #[test]

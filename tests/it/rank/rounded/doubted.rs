@@ -1,7 +1,7 @@
 //! Decimals that are all but simple fractions are doubted where a file is checked.
 
 use super::digits::{Z, door, read};
-use crate::common::{has, run_on};
+use crate::common::*;
 use ozols::model::rounded::uncertainties;
 
 #[test]

@@ -5,11 +5,9 @@
 
 use super::search_numeric::request;
 use crate::common::*;
-use ozols::accuracy::change::Noise;
 use ozols::geom::rigid::RigidMotion;
 use ozols::rank::method::auto::decide;
 use rayon::prelude::*;
-use std::fmt::Write as _;
 
 type Vector = [f64; 3];
 /// Two links, a point and an axis.
@@ -109,33 +107,23 @@ fn text(hinges: &[Hinge], decimals: (usize, &[usize]), turned: bool, noise: &mut
     let turn = RigidMotion::turn(any(noise), angle);
     let vector = |v: Vector, d: usize| {
         let [x, y, z] = turn.direction(v);
-        format!("[{x:.d$}, {y:.d$}, {z:.d$}]")
+        format!("{x:.d$}, {y:.d$}, {z:.d$}")
     };
-    let mut links: Vec<&String> = hinges.iter().flat_map(|h| [&h.0, &h.1]).collect();
-    links.sort_unstable();
-    links.dedup();
-    let mut out = "name = \"one of a family\"\n".to_owned();
-    for (i, link) in links.iter().enumerate() {
-        let role = ["role = \"frame\"\n", "role = \"output\"\n"]
-            .get(i)
-            .unwrap_or(&"");
-        write!(out, "[[link]]\nid = \"{link}\"\n{role}").unwrap();
-    }
-    for (i, (a, b, point, axis)) in hinges.iter().enumerate() {
+    let links: BTreeSet<&str> = hinges.iter().flat_map(|h| [&*h.0, &h.1]).collect();
+    let mark = |(i, l): (usize, &&str)| format!("{l}{}", if i == 1 { "*" } else { "" });
+    let links = links.iter().enumerate().map(mark).join(" ");
+    let line = |(i, (a, b, point, axis)): (usize, &Hinge)| {
         let size = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
         let axis = if turned || *axis != Z {
             vector(axis.map(|x| x / size), decimals.1[i % decimals.1.len()])
         } else {
-            "[0, 0, 1]".to_owned()
+            "0, 0, 1".to_owned()
         };
         let point = vector(*point, decimals.0);
-        writeln!(
-            out,
-            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {point}\naxis = {axis}"
-        )
-        .unwrap();
-    }
-    out
+        format!("j{i} | {a} {b} | revolute | {point} | {axis}")
+    };
+    let joints = hinges.iter().enumerate().map(line).join("\n");
+    file_of("name = \"one of a family\"", &links, &joints)
 }
 
 /// A family: its name, what makes one, W and the finite mobility, and the decimals from which on nearly all are decided.

@@ -8,22 +8,22 @@ use ozols::rank::rounded::size;
 
 /// A chain of joints, each with its type, point and axis.
 fn chain(joints: &[(&str, Vector, Vector)]) -> Mechanism {
-    let mut text = "name = \"chain\"\nlength_unit = \"m\"\n".to_owned();
-    for l in 0..=joints.len() {
-        let role = match l {
-            0 => "role = \"frame\"\n",
-            l if l == joints.len() => "role = \"output\"\n",
-            _ => "",
-        };
-        text += &format!("[[link]]\nid = \"l{l}\"\n{role}");
-    }
-    for (i, (kind, p, d)) in joints.iter().enumerate() {
-        text += &format!(
-            "[[joint]]\nid = \"j{i}\"\nlinks = [\"l{i}\", \"l{}\"]\ntype = \"{kind}\"\npoint = {p:?}\naxis = {d:?}\n",
-            i + 1
-        );
-    }
-    mechanism_from_str("chain.toml", &text).unwrap()
+    let links = (0..=joints.len()).map(|l| format!("l{l}")).join(" ") + "*";
+    let line = |(i, (kind, p, d)): (usize, &(&str, Vector, Vector))| {
+        let vector = |v: &Vector| v.iter().map(|x| format!("{x:?}")).join(", ");
+        format!(
+            "j{i} | l{i} l{} | {kind} | {} | {}",
+            i + 1,
+            vector(p),
+            vector(d)
+        )
+    };
+    let joints = joints.iter().enumerate().map(line).join("\n");
+    mechanism_from_str(
+        "chain.toml",
+        &file_of("name = \"chain\"\nlength_unit = \"m\"", &links, &joints),
+    )
+    .unwrap()
 }
 
 fn near(m: &Mechanism, tolerance: f64) -> Vec<NearJoint> {

@@ -1,7 +1,7 @@
 //! Searches of mechanisms that exact arithmetic does not have as they are meant: by singular values, and said so.
 
 use crate::common::*;
-use ozols::accuracy::change::{Noise, turned_and_rounded};
+use ozols::accuracy::change::turned_and_rounded;
 use ozols::model::mechanism::JointOption;
 use ozols::rank::exact::field::exact_field;
 use ozols::score::outcome::Outcome;
@@ -10,8 +10,6 @@ use ozols::search::answer::counts::Counts;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::numeric::at_tolerance::WHOLE;
 use ozols::search::question::rounded_rank::Digits;
-use rayon::prelude::*;
-use serde_json::json;
 
 /// Options that every joint may take.
 pub(super) fn request() -> Request {
@@ -48,119 +46,6 @@ pub(super) fn plain(name: &str) -> Mechanism {
 /// It turned and rounded.
 pub(super) fn turned(m: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
     bare(turned_and_rounded(m, decimals, noise))
-}
-
-/// What a search of a turned mechanism says against what one of the exact one does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Said {
-    /// Exact, and the same.
-    Exact,
-    /// Numeric, without doubts, and the same.
-    Numeric,
-    /// Numeric, with the truth between its bounds.
-    Bracket,
-    /// No answer.
-    Refused,
-    /// Not exact, and the truth is not in it.
-    Beside,
-    /// Exact, and wrong.
-    WrongAndSure,
-}
-
-fn said(name: &str, m: &Mechanism, truth: &Outcome) -> (Said, String) {
-    let found = match ozols::search(m, &request()) {
-        Ok(found) => found,
-        Err(e) => return (Said::Refused, format!("{name}: {e}")),
-    };
-    let figures = |o: &Outcome| (o.determinate.clone(), o.admissible.clone());
-    let same = figures(&found) == figures(truth);
-    let Some(numeric) = &found.numeric else {
-        let words = format!("{name}: {} for {}", found.admissible, truth.admissible);
-        return match (same, found.is_exact()) {
-            (true, _) => (Said::Exact, words),
-            (false, true) => (Said::WrongAndSure, words),
-            (false, false) => (Said::Beside, words),
-        };
-    };
-    assert!(!found.is_exact() && !found.is_determinate_exact());
-    let within = [
-        (&numeric.determinate, &truth.determinate),
-        (&numeric.admissible, &truth.admissible),
-    ];
-    let holds = within
-        .iter()
-        .all(|(b, t)| b.sure.total <= t.total && t.total <= b.most);
-    let narrow = within.iter().all(|(b, _)| b.is_narrow());
-    let words = format!(
-        "{name}: {} to {} for {}, determinate {} to {} for {}, {:?}",
-        numeric.admissible.sure,
-        numeric.admissible.most,
-        truth.admissible,
-        numeric.determinate.sure,
-        numeric.determinate.most,
-        truth.determinate,
-        numeric.digits
-    );
-    let worth = match (same && narrow, holds && !narrow) {
-        (true, _) => Said::Numeric,
-        (_, true) => Said::Bracket,
-        _ => Said::Beside,
-    };
-    (worth, words)
-}
-
-/// Those built in whose meant geometry is not there exactly, in small spaces, and some whose is.
-const SOME: [&str; 6] = [
-    "bennett",
-    "goldberg-5r",
-    "myard-5r",
-    "four-bar",
-    "hart-inversor",
-    "sarrus",
-];
-
-/// Turns never looked at before, of all that are built in: `OZOLS_ROUNDED=7 OZOLS_DECIMALS=6,12 cargo test --test integration
-/// rounded::search_numeric -- --nocapture`.
-#[test]
-#[allow(clippy::print_stdout, reason = "the table is what it is run for")]
-fn no_turned_mechanism_has_a_false_count_that_is_called_exact() {
-    let turn = std::env::var("OZOLS_ROUNDED").ok();
-    let decimals = std::env::var("OZOLS_DECIMALS").unwrap_or_else(|_| "6".to_owned());
-    let seed: u64 = turn.as_ref().and_then(|t| t.parse().ok()).unwrap_or(1);
-    let all = builtin::names();
-    let names: Vec<&str> = match turn {
-        Some(_) => all,
-        None => SOME.to_vec(),
-    };
-    // Spaces that a debug build looks at whole in a second.
-    let small = |o: &Outcome| o.search.size() <= 3000u32.into();
-    for decimals in decimals.split(',').map(|d| d.parse::<usize>().unwrap()) {
-        let one = |(n, name): (usize, &&str)| {
-            let m = plain(name);
-            let few = m.joints.len() <= 8;
-            let truth = few.then(|| ozols::search(&m, &request()).ok())?;
-            let truth = truth.filter(small)?;
-            let turned = turned(&m, decimals, &mut Noise::new(seed, n));
-            Some(said(name, &turned, &truth))
-        };
-        let mut all: Vec<(Said, String)> = names.par_iter().enumerate().filter_map(one).collect();
-        all.sort();
-        let how_many = |of: Said| all.iter().filter(|(s, _)| *s == of).count();
-        for (_, words) in all.iter().filter(|(s, _)| *s != Said::Exact) {
-            println!("{words}");
-        }
-        println!(
-            "{decimals} decimals: {} exact, {} numeric and the same, {} between bounds, {} refused, {} beside, {} wrong and sure",
-            how_many(Said::Exact),
-            how_many(Said::Numeric),
-            how_many(Said::Bracket),
-            how_many(Said::Refused),
-            how_many(Said::Beside),
-            how_many(Said::WrongAndSure)
-        );
-        let wrong: Vec<_> = all.iter().filter(|(s, _)| *s >= Said::Beside).collect();
-        assert!(wrong.is_empty(), "{wrong:#?}");
-    }
 }
 
 #[test]

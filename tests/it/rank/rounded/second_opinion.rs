@@ -2,7 +2,6 @@
 
 use super::search_numeric::{plain, request, turned};
 use crate::common::*;
-use ozols::accuracy::change::Noise;
 use ozols::score::request::Request;
 
 /// A turned gripper as it is written: planes and parallels are gone with the last digit.

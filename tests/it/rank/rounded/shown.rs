@@ -3,7 +3,6 @@
 use super::digits::door;
 use super::search_numeric::{bare, request, turned};
 use crate::common::*;
-use ozols::accuracy::change::Noise;
 use ozols::model::rounded::uncertainties;
 use ozols::rank::method::auto::decide;
 use ozols::score::outcome::Outcome;

@@ -3,7 +3,6 @@
 
 use super::search_numeric::{bare, request, turned};
 use crate::common::*;
-use ozols::accuracy::change::Noise;
 use ozols::score::request::Request;
 use ozols::search::question::conditions::Symmetry;
 

@@ -3,7 +3,7 @@
 use super::cases::{Case, cases};
 use crate::common::*;
 use crate::documents::figures::{between, says};
-use ozols::accuracy::change::{Noise, turned_and_rounded};
+use ozols::accuracy::change::turned_and_rounded;
 use ozols::rank::method::auto::decide;
 use ozols::rank::rounded::verdict::verdict;
 use rayon::prelude::*;

@@ -2,10 +2,7 @@
 
 use super::search_numeric::{plain, turned};
 use crate::common::*;
-use ozols::accuracy::change::Noise;
-use ozols::closure::Closure;
 use ozols::geom::Reals;
-use ozols::geom::vector::real;
 use ozols::meant::mechanism::{Meant, meant};
 use ozols::model::rounded::uncertainties;
 use ozols::rank::numeric::scaling::{Scaling, scaled};

@@ -1,6 +1,6 @@
 //! Mechanisms whose finite mobility is hard to tell, each with what it is in truth and where that comes from.
 
-use crate::common::but;
+use crate::common::*;
 use std::fmt::Write;
 
 /// A trap.

@@ -79,10 +79,10 @@ fn a_rod_that_is_a_hair_longer_is_never_said_to_move() {
 /// JSON gives a number where there is one, and both bounds always.
 #[test]
 fn both_bounds_are_told() {
-    let said = |text: &str| -> serde_json::Value {
+    let said = |text: &str| -> Value {
         let (code, said, _) = run_on("analyze", "it.toml", text, &["--format", "json"]);
         assert_eq!(code, Some(0));
-        serde_json::from_str::<serde_json::Value>(&said).unwrap()["states"][0].clone()
+        serde_json::from_str::<Value>(&said).unwrap()["states"][0].clone()
     };
     let keys = [
         "finite_mobility",

@@ -1,7 +1,7 @@
 //! Joints of OndselSolver's files: what each leaves of the six freedoms of a part.
 
 use super::{figures, read};
-use crate::common::has;
+use crate::common::*;
 use ozols::robots::Options;
 
 /// A part off the origin and turned by 30 degrees about x, and one joint between the ground and it.

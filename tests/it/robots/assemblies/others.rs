@@ -10,12 +10,12 @@ fn expected() -> Vec<(String, Vec<u8>, Value)> {
     let Some(folder) = assemblies_of_others() else {
         return Vec::new();
     };
-    let text = std::fs::read_to_string(folder.join("expected.json")).unwrap();
+    let text = fs::read_to_string(folder.join("expected.json")).unwrap();
     let all: Value = serde_json::from_str(&text).unwrap();
     let all = all.as_object().unwrap();
     assert!(all.len() >= 18);
     let one = |(name, v): (&String, &Value)| {
-        let bytes = std::fs::read(folder.join(name)).unwrap();
+        let bytes = fs::read(folder.join(name)).unwrap();
         (name.clone(), bytes, v.clone())
     };
     all.iter().map(one).collect()
@@ -75,7 +75,7 @@ fn as_many_are_redundant_as_the_solver_takes_away() {
 #[test]
 fn the_guide_says_what_each_finds() {
     let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/guide/beside.md");
-    let guide = std::fs::read_to_string(guide).unwrap();
+    let guide = fs::read_to_string(guide).unwrap();
     for (name, bytes, v) in expected() {
         let solver = &v["OndselSolver"];
         let Some(dof) = solver["dof_as_freecad_counts"].as_i64() else {

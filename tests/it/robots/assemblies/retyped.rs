@@ -24,12 +24,12 @@ fn members(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
 // Two joints get another type: a number each, and a mark that FreeCAD is to solve them anew.
 #[test]
 fn fix_changes_types_and_nothing_else() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
-    std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
+    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
     done(&["fix", &old, "-o", &new]);
-    let [before, after] = [&old, &new].map(|p| std::fs::read(p).unwrap());
+    let [before, after] = [&old, &new].map(|p| fs::read(p).unwrap());
     let i = read("fixed.FCStd", &after, &Options::default());
     assert_eq!(figures(&i), (1, 0));
     let [was, is] = [&before, &after].map(|b| members(b));
@@ -43,18 +43,18 @@ fn fix_changes_types_and_nothing_else() {
     assert_eq!(is.replace(" Touched=\"1\"", "").len(), was.len());
     // What is fixed is written as it is.
     done(&["fix", &new, "-o", &path("again.FCStd")]);
-    let again = std::fs::read(path("again.FCStd")).unwrap();
+    let again = fs::read(path("again.FCStd")).unwrap();
     assert_eq!(members(&again), members(&after));
 }
 
 #[test]
 fn fix_keeps_to_the_joints_that_may_be_changed() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new) = (path("x.FCStd"), path("fixed.FCStd"));
-    std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
+    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
     done(&["fix", &old, "--at", "B", "--at", "C", "-o", &new]);
-    let i = read("x", &std::fs::read(&new).unwrap(), &Options::default());
+    let i = read("x", &fs::read(&new).unwrap(), &Options::default());
     assert_eq!(figures(&i), (1, 0));
     for j in &i.mechanism.joints {
         let changed = j.joint_type.name() != "revolute";
@@ -71,9 +71,9 @@ fn fix_keeps_to_the_joints_that_may_be_changed() {
 // A search may be asked for types that FreeCAD has no joint for; those are not written.
 #[test]
 fn types_that_freecad_has_not_are_refused() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let old = dir.path().join("x.FCStd").display().to_string();
-    std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
+    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
     let words = [
         "fix",
         &old,
@@ -90,15 +90,15 @@ fn types_that_freecad_has_not_are_refused() {
 // export writes the same document as fix, of a variant or as it is, and of nothing but a document.
 #[test]
 fn export_writes_the_owners_document() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let (old, new, same) = (path("x.FCStd"), path("new.FCStd"), path("same.FCStd"));
-    std::fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
+    fs::write(&old, fcstd(&four_bar(HINGES))).unwrap();
     for (more, out) in [(&["--idea", "1"][..], &new), (&[], &same)] {
         let words = [&["export", &old, "--to", "fcstd", "-o", out], more].concat();
         done(&words);
     }
-    let [old_bytes, new_bytes, same_bytes] = [&old, &new, &same].map(|p| std::fs::read(p).unwrap());
+    let [old_bytes, new_bytes, same_bytes] = [&old, &new, &same].map(|p| fs::read(p).unwrap());
     assert_eq!(members(&same_bytes), members(&old_bytes));
     assert_eq!(figures(&read("x", &new_bytes, &Options::default())), (1, 0));
     for (file, to, said) in [
@@ -114,7 +114,7 @@ fn export_writes_the_owners_document() {
 // The label of a joint is its type there.
 #[test]
 fn asmt_files_get_other_labels() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = |name: &str| dir.path().join(name).display().to_string();
     let old = path("x.asmt");
     // Two hinges at one place between the same two parts: five rows are held twice, and no other type lets only those go.
@@ -123,7 +123,7 @@ fn asmt_files_get_other_labels() {
     let from = text.find("\t\t\tRevoluteJoint").unwrap();
     let second = text[from..at].replace("\tJ\n", "\tK\n");
     let twice = format!("{}{second}{}", &text[..at], &text[at..]);
-    std::fs::write(&old, &twice).unwrap();
+    fs::write(&old, &twice).unwrap();
     let (code, out, said) = ran(&["lint", &old]);
     assert_eq!(code, Some(1), "{said}");
     has(&out, "5 redundant constraints");

@@ -7,12 +7,11 @@ use super::make::{
 use super::{figures, read};
 use crate::common::*;
 use ozols::robots::Options;
-use serde_json::{Value, json};
 
 fn lint(objects: &[Object]) -> (Option<i32>, Value) {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = dir.path().join("x.FCStd").display().to_string();
-    std::fs::write(&path, fcstd(objects)).unwrap();
+    fs::write(&path, fcstd(objects)).unwrap();
     let (code, out, said) = ran(&["lint", &path, "--format", "json"]);
     let v: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e} {said}"));
     (code, v["files"][0].clone())

@@ -286,9 +286,9 @@ fn asmt_files_that_are_wrong_are_told_by_line() {
 
 #[test]
 fn bad_files_end_with_2() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = tempdir().unwrap();
     let path = dir.path().join("x.FCStd").display().to_string();
-    std::fs::write(&path, &fcstd(&four_bar(HINGES))[..200]).unwrap();
+    fs::write(&path, &fcstd(&four_bar(HINGES))[..200]).unwrap();
     for command in [
         ["lint", &path],
         ["analyze", &path],

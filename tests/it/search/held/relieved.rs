@@ -93,7 +93,7 @@ fn variants_say_where_their_redundant_constraints_are() {
     let found = searched("gripper-10", &question);
     for v in found["variants"].list() {
         let shares = v["per_contour"].list();
-        let number = |c: &serde_json::Value, key: &str| c[key].as_i64().unwrap();
+        let number = |c: &Value, key: &str| c[key].as_i64().unwrap();
         let sum: i64 = shares.iter().map(|c| number(c, "redundant")).sum();
         assert_eq!(
             sum,

@@ -12,7 +12,6 @@
 //! double Hooke joint.
 
 use crate::common::*;
-
 /// A file of a linkage in a plane: a rod between a crank and a lever, a slider-crank, or two rods from one part, which slides or
 /// turns, each to a lever. The first joint drives.
 fn linkage(shape: &str, points: &str) -> String {

@@ -1,7 +1,6 @@
 //! A toggle gripper: a plunger, two rods and two jaws. What its file does not say is that one finger is the other's image.
 
 use crate::common::*;
-
 /// The file; fingers are each other's mirror image, or half a turn.
 pub(super) fn gripper(type_of_plunger: &str, turned: bool, options: &str) -> String {
     let mut text = format!(

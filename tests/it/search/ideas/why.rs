@@ -14,7 +14,7 @@ fn why(args: &[&str], idea: usize) -> Value {
 /// the jaw, is the jaw pivot's.
 #[test]
 fn a_side_load_on_a_jaw_is_borne_by_its_pivot() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempdir().unwrap();
     let path = folder.path().join("toggle.toml");
     let options = "\"revolute\", \"cylindrical\", \"spherical\"";
     fs::write(&path, gripper("prismatic", false, options)).unwrap();

@@ -1,7 +1,7 @@
 //! Which variants do with less than others.
 
-use super::rational::{Q, allowed_twists, reduce};
-use ozols::model::mechanism::{JointId, Mechanism};
+use crate::common::*;
+use crate::fuzz::readers::slow_search::{Q, allowed_twists, reduce};
 
 /// Whether what one variant puts at each joint moves in part of the ways that another's does, and less at one joint: nothing
 /// where it moves in others.

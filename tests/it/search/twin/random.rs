@@ -1,7 +1,7 @@
 //! Small random mechanisms, with and without couplings.
 
-use super::rational::{Q, axes, dot};
 use crate::common::*;
+use crate::fuzz::readers::slow_search::{Q, axes, dot};
 use proptest::prelude::*;
 
 const TYPES: [&str; 6] = [

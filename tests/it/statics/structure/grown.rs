@@ -2,8 +2,7 @@
 
 use super::{J, file, mechanism, p, r};
 use super::{by_brute_force, laws};
-use itertools::Itertools;
-use ozols::model::mechanism::StateId;
+use crate::common::*;
 use ozols::statics::assur::{alternatives, decompose};
 use ozols::statics::planar::{PairKind, PlanarMechanism};
 use proptest::prelude::*;

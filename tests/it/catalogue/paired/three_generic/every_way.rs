@@ -1,23 +1,23 @@
 //! Grippers of three jaws by trying all: every way to join labelled links, every choice of roles, the least code of every numbering.
 //! Motions are counted in floating point at scattered places. Nothing of it is code that counts structures.
 
-use itertools::Itertools;
+use super::super::super::free_motions;
+use crate::common::*;
 use ozols::chains::PairKind;
 use ozols::chains::structure::PairStructure;
-use std::collections::BTreeSet;
 
 /// What joins each two links, a letter or `-`: (0, 1), (0, 2), (1, 2) and so on.
 type Joined = Vec<char>;
 
 /// The least code of every numbering: what joins links, frame, links of the input, jaws.
-pub(super) type Code = (Joined, usize, Vec<usize>, Vec<usize>);
+pub(in super::super::super) type Code = (Joined, usize, Vec<usize>, Vec<usize>);
 
-fn place(u: usize, v: usize) -> usize {
+pub(in super::super::super) fn place(u: usize, v: usize) -> usize {
     let (u, v) = (u.min(v), u.max(v));
     v * (v - 1) / 2 + u
 }
 
-fn renumbered(joined: &[char], to: &[usize]) -> Joined {
+pub(in super::super::super) fn renumbered(joined: &[char], to: &[usize]) -> Joined {
     let mut out = joined.to_vec();
     for (u, v) in (0..to.len()).tuple_combinations() {
         out[place(to[u], to[v])] = joined[place(u, v)];
@@ -33,7 +33,7 @@ fn least(joined: &[char], frame: usize, input: &[usize], jaws: &[usize], links: 
     all.min().unwrap()
 }
 
-pub(super) fn code(s: &PairStructure) -> Code {
+pub(in super::super::super) fn code(s: &PairStructure) -> Code {
     let n = s.chain.links();
     let pairs = (0..n).flat_map(|v| (0..v).map(move |u| (u, v)));
     let letter = |(u, v)| s.chain.between(u, v).map_or('-', PairKind::letter);
@@ -54,7 +54,7 @@ fn motions(joined: &[char], links: &[usize]) -> Vec<Vec<f64>> {
     for (j, i) in (0..links.len()).tuple_combinations() {
         let at = place(links[j], links[i]);
         // Digits far behind the point: no three places are on one line, no three lines through one point.
-        let off = |k: usize| (1e5 * ((5 * at + k + 1) as f64).sin()).fract();
+        let off = |k: usize| (1e5 * ((6 * at + k + 1) as f64).sin()).fract();
         // Of the turning and the velocity at the origin of one link against the other.
         let mut line = |[m, x, y]: [f64; 3]| {
             let side = |l: usize, sign: f64| {
@@ -76,39 +76,19 @@ fn motions(joined: &[char], links: &[usize]) -> Vec<Vec<f64>> {
                 line([0.0, off(1), off(2)]);
             }
             'G' | 'S' => line([off(0), off(1), off(2)]),
+            'D' => [0, 3]
+                .into_iter()
+                .for_each(|k| line([off(k), off(k + 1), off(k + 2)])),
             _ => {}
         }
     }
-    let mut pivots: Vec<(usize, usize)> = Vec::new();
-    for c in 0..n {
-        let free = (0..rows.len()).filter(|r| pivots.iter().all(|p| p.0 != *r));
-        let best = free.max_by(|&a, &b| rows[a][c].abs().total_cmp(&rows[b][c].abs()));
-        let Some(p) = best.filter(|&p| rows[p][c].abs() > 1e-9) else {
-            continue;
-        };
-        let own = rows[p].clone();
-        for (_, row) in rows.iter_mut().enumerate().filter(|(r, _)| *r != p) {
-            let factor = row[c] / own[c];
-            row.iter_mut().zip(&own).for_each(|(x, o)| *x -= factor * o);
-        }
-        pivots.push((p, c));
-    }
-    let free = (0..n).filter(|c| pivots.iter().all(|p| p.1 != *c));
-    let motion = |free: usize| {
-        let mut out = vec![0.0; n];
-        out[free] = 1.0;
-        pivots
-            .iter()
-            .for_each(|&(r, c)| out[c] = -rows[r][free] / rows[r][c]);
-        out
-    };
-    free.map(motion).collect()
+    free_motions(rows, n)
 }
 
-/// Freedoms by counting: three a link but one, two less a hinge or a slide, one less teeth or a slot.
+/// Freedoms by counting: three a link but one, two less a hinge, a slide or two slots, one less teeth or a slot.
 fn mobility(joined: &[char], links: &[usize]) -> i64 {
     let takes = |(u, v): (&usize, &usize)| match joined[place(*u, *v)] {
-        'R' | 'P' => 2,
+        'R' | 'P' | 'D' => 2,
         'G' | 'S' => 1,
         _ => 0,
     };
@@ -117,7 +97,7 @@ fn mobility(joined: &[char], links: &[usize]) -> i64 {
 
 /// Whether it has one motion, in which every two links move, and each gear pair a link that hinges both or hinges one and lets the other
 /// slide.
-fn moves(joined: &[char], links: usize) -> bool {
+pub(in super::super::super) fn moves(joined: &[char], links: usize) -> bool {
     let all = (0..links).collect_vec();
     let carried = |(u, v): (usize, usize)| {
         let held = |c: usize| [joined[place(c, u)], joined[place(c, v)]];
@@ -146,7 +126,11 @@ fn has_less(joined: &[char], links: usize, roles: &[usize]) -> bool {
 }
 
 /// The codes of all grippers of so many links with such pairs beside hinges, so many at most.
-pub(super) fn grippers(links: usize, kinds: &[PairKind], most: usize) -> BTreeSet<Code> {
+pub(in super::super::super) fn grippers(
+    links: usize,
+    kinds: &[PairKind],
+    most: usize,
+) -> BTreeSet<Code> {
     let letters = ['-', 'R']
         .into_iter()
         .chain(kinds.iter().map(|k| k.letter()));

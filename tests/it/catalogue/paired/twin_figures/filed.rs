@@ -1,86 +1,79 @@
 //! A gripper as its file has it, moved: places and turns of all links by Newton's method with difference quotients.
 
-use super::super::super::{dense_twin::place, gauss};
+use super::super::super::gauss;
+use crate::common::*;
 use std::array::from_fn;
 use toml::Table;
 
-pub(super) type Point = [f64; 2];
+pub(in super::super::super) type Point = [f64; 2];
 
 /// Steps from the narrowest part to the widest: other poses than the catalogue looks at, which takes 48.
 const STEPS: f64 = 60.0;
 /// So many mm count as a radian of a link, so that turns and shifts fit as exactly.
 const ARM: f64 = 50.0;
 
-pub(super) fn sub(a: Point, b: Point) -> Point {
+pub(in super::super::super) fn sub(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-pub(super) fn dot(a: Point, b: Point) -> f64 {
+pub(in super::super::super) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-pub(super) fn length(a: Point) -> f64 {
+pub(in super::super::super) fn length(a: Point) -> f64 {
     a[0].hypot(a[1])
 }
 
-pub(super) fn quarter([x, y]: Point) -> Point {
+pub(in super::super::super) fn quarter([x, y]: Point) -> Point {
     [-y, x]
 }
 
-pub(super) fn times(k: f64, a: Point) -> Point {
+pub(in super::super::super) fn times(k: f64, a: Point) -> Point {
     a.map(|x| k * x)
 }
 
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Holds {
+pub(in super::super::super) enum Holds {
     Hinge,
     Slide,
     Slot,
 }
 
 /// A joint of a file: of a slot the link with the pin is the first.
-pub(super) struct FiledJoint {
+pub(in super::super::super) struct FiledJoint {
     id: String,
-    pub(super) holds: Holds,
-    pub(super) links: [usize; 2],
-    pub(super) at: Point,
-    pub(super) along: Point,
+    pub(in super::super::super) holds: Holds,
+    pub(in super::super::super) links: [usize; 2],
+    pub(in super::super::super) at: Point,
+    pub(in super::super::super) along: Point,
     /// The end that has the pin, or the block of a guide: what moves, where the other is the frame.
-    pub(super) pin: usize,
-    pub(super) driven: bool,
+    pub(in super::super::super) pin: usize,
+    pub(in super::super::super) driven: bool,
 }
 
 /// Teeth: the joints of their carrier that hold them, and how fast the second goes by the first.
-pub(super) struct FiledTeeth {
-    pub(super) held: [usize; 2],
+pub(in super::super::super) struct FiledTeeth {
+    pub(in super::super::super) held: [usize; 2],
     ratio: f64,
 }
 
-pub(super) struct Gripper {
-    pub(super) links: usize,
-    pub(super) frame: usize,
-    pub(super) jaws: Vec<usize>,
-    pub(super) tips: Vec<Point>,
-    pub(super) joints: Vec<FiledJoint>,
-    pub(super) teeth: Vec<FiledTeeth>,
+pub(in super::super::super) struct Gripper {
+    pub(in super::super::super) links: usize,
+    pub(in super::super::super) frame: usize,
+    pub(in super::super::super) jaws: Vec<usize>,
+    pub(in super::super::super) tips: Vec<Point>,
+    pub(in super::super::super) joints: Vec<FiledJoint>,
+    pub(in super::super::super) teeth: Vec<FiledTeeth>,
 }
 
-/// A number of a file: a quotient may have a root of three above, alone or beside a number: "(1 - 2*sqrt(3))/2".
+/// A number of a file: one that is written in words may have a root of three in it.
 fn real(x: &toml::Value) -> f64 {
     let Some(words) = x.as_str() else {
-        return x
-            .as_float()
-            .unwrap_or_else(|| x.as_integer().unwrap() as f64);
+        let whole = || x.as_integer().unwrap() as f64;
+        return x.as_float().unwrap_or_else(whole);
     };
-    let (above, below) = words.split_once('/').unwrap_or((words, "1"));
-    let sum = above.replace(['(', ')', ' '], "").replace("*sqrt3", "r");
-    let second = sum.rfind(['+', '-']).filter(|&at| at > 0).unwrap_or(0);
-    let term = |s: &str| match s.strip_suffix('r') {
-        Some(factor) => factor.parse::<f64>().unwrap() * 3.0_f64.sqrt(),
-        None if s.is_empty() => 0.0,
-        None => s.parse().unwrap(),
-    };
-    (term(&sum[..second]) + term(&sum[second..])) / term(below)
+    let number: Expr = words.replace("sqrt3", "sqrt(3)").parse().unwrap();
+    number.to_f64()
 }
 
 fn filed<'t>(file: &'t Table, key: &str) -> Vec<&'t toml::Value> {
@@ -88,7 +81,27 @@ fn filed<'t>(file: &'t Table, key: &str) -> Vec<&'t toml::Value> {
     all.into_iter().flatten().collect()
 }
 
+/// What a gripper is moved to: a width of the part, or a place of its drive (mm or rad).
+#[derive(Clone, Copy)]
+pub(in super::super::super) enum To {
+    Width(f64),
+    Drive(f64),
+}
+
+pub(in super::super::super) fn place(x: &[f64], link: usize, p: Point) -> Point {
+    let [t, u, v] = [x[3 * link], x[3 * link + 1], x[3 * link + 2]];
+    [
+        t.cos() * p[0] - t.sin() * p[1] + u,
+        t.sin() * p[0] + t.cos() * p[1] + v,
+    ]
+}
+
 impl FiledJoint {
+    /// So many mm count as a radian or a millimetre of it.
+    fn arm(&self) -> f64 {
+        if self.holds == Holds::Slide { 1.0 } else { ARM }
+    }
+
     fn of(j: &toml::Value, link: impl Fn(&toml::Value) -> usize) -> FiledJoint {
         let options = j.get("options").map(toml::Value::to_string);
         // Flat faces are laid out as pins in slots, since two of their constraints are redundant in the plane.
@@ -114,7 +127,7 @@ impl FiledJoint {
 }
 
 impl Gripper {
-    pub(super) fn read(file: &str) -> Gripper {
+    pub(in super::super::super) fn read(file: &str) -> Gripper {
         let file: Table = file.parse().unwrap();
         let names: Vec<&str> = filed(&file, "link")
             .iter()
@@ -143,18 +156,18 @@ impl Gripper {
     }
 
     /// Where a point of a joint is that goes with one of its links.
-    pub(super) fn on(&self, x: &[f64], j: &FiledJoint, end: usize) -> Point {
+    pub(in super::super::super) fn on(&self, x: &[f64], j: &FiledJoint, end: usize) -> Point {
         place(x, j.links[end], j.at)
     }
 
     /// The direction of a guide or a slot, which goes with one of its links.
-    pub(super) fn along(&self, x: &[f64], j: &FiledJoint, end: usize) -> Point {
+    pub(in super::super::super) fn along(&self, x: &[f64], j: &FiledJoint, end: usize) -> Point {
         let link = j.links[end];
         sub(place(x, link, j.along), place(x, link, [0.0; 2]))
     }
 
     /// How far the second link of a joint has gone against the first: rad, of a guide mm.
-    fn gone(&self, x: &[f64], j: &FiledJoint) -> f64 {
+    pub(in super::super::super) fn gone(&self, x: &[f64], j: &FiledJoint) -> f64 {
         let [u, v] = j.links;
         match j.holds {
             Holds::Slide => dot(self.along(x, j, 0), sub(self.on(x, j, 1), self.on(x, j, 0))),
@@ -162,11 +175,11 @@ impl Gripper {
         }
     }
 
-    pub(super) fn input(&self) -> &FiledJoint {
+    pub(in super::super::super) fn input(&self) -> &FiledJoint {
         self.joints.iter().find(|j| j.driven).unwrap()
     }
 
-    pub(super) fn tip(&self, x: &[f64], n: usize) -> Point {
+    pub(in super::super::super) fn tip(&self, x: &[f64], n: usize) -> Point {
         place(x, self.jaws[n], self.tips[n])
     }
 
@@ -179,20 +192,20 @@ impl Gripper {
     }
 
     /// Away from the part.
-    pub(super) fn outward(&self) -> Vec<Point> {
+    pub(in super::super::super) fn outward(&self) -> Vec<Point> {
         self.arms().map(|a| times(1.0 / length(a), a)).collect()
     }
 
     /// How far apart the tips are, as the forces of the part go: twice as far as they are from its middle on the average.
-    pub(super) fn width(&self, x: &[f64]) -> f64 {
+    pub(in super::super::super) fn width(&self, x: &[f64]) -> f64 {
         let ways = self.arms().zip(self.outward()).enumerate();
         let each =
             ways.map(|(n, (arm, out))| length(arm) + dot(sub(self.tip(x, n), self.tips[n]), out));
         2.0 * each.sum::<f64>() / self.tips.len() as f64
     }
 
-    /// By how much everything misses, in mm: the frame its place, every joint, all teeth, and the tips the width of the part.
-    fn misses(&self, x: &[f64], width: f64) -> Vec<f64> {
+    /// By how much everything misses, in mm: the frame its place, every joint, all teeth, and what it is moved to.
+    fn misses(&self, x: &[f64], to: To) -> Vec<f64> {
         let mut out: Vec<f64> = x[3 * self.frame..][..3].to_vec();
         for j in &self.joints {
             let apart = sub(self.on(x, j, 1), self.on(x, j, 0));
@@ -208,49 +221,57 @@ impl Gripper {
         for t in &self.teeth {
             let [a, b] = t.held.map(|j| &self.joints[j]);
             let off = self.gone(x, b) - t.ratio * self.gone(x, a);
-            let arm = if b.holds == Holds::Slide { 1.0 } else { ARM };
-            out.push(arm * off);
+            out.push(b.arm() * off);
         }
-        out.push(self.width(x) - width);
+        let input = self.input();
+        out.push(match to {
+            To::Width(width) => self.width(x) - width,
+            To::Drive(drive) => input.arm() * (self.gone(x, input) - drive),
+        });
         out
     }
 
     /// How what misses changes with each of the unknown.
-    pub(super) fn columns(&self, x: &[f64], width: f64) -> Vec<Vec<f64>> {
+    pub(in super::super::super) fn columns(&self, x: &[f64], to: To) -> Vec<Vec<f64>> {
         let column = |c: usize| -> Vec<f64> {
             let [a, b] = [1e-6, -1e-6].map(|h| {
                 let mut y = x.to_vec();
                 y[c] += h;
-                self.misses(&y, width)
+                self.misses(&y, to)
             });
             a.iter().zip(&b).map(|(a, b)| (a - b) / 2e-6).collect()
         };
         (0..x.len()).map(column).collect()
     }
 
-    /// Fits all links at a width, from a pose nearby.
-    fn fit(&self, x: &mut [f64], width: f64) {
+    /// Whether all links fit there, from a pose nearby.
+    pub(in super::super::super) fn fits(&self, x: &mut [f64], to: To) -> bool {
         for _ in 0..20 {
-            let off = self.misses(x, width);
+            let off = self.misses(x, to);
             if off.iter().all(|m| m.abs() < 1e-9) {
-                return;
+                return true;
             }
-            let by = gauss(&self.columns(x, width), &off);
+            let by = gauss(&self.columns(x, to), &off);
             x.iter_mut().zip(by).for_each(|(x, d)| *x -= d);
         }
-        panic!("no pose at {width} mm");
+        false
+    }
+
+    pub(in super::super::super) fn drawn(&self) -> Vec<f64> {
+        vec![0.0; 3 * self.links]
     }
 
     /// Poses from the drawn one on, as many for a millimetre everywhere.
-    pub(super) fn stroke(&self, narrowest: f64, widest: f64) -> Vec<Vec<f64>> {
-        let mut out = vec![vec![0.0; 3 * self.links]];
+    pub(in super::super::super) fn stroke(&self, narrowest: f64, widest: f64) -> Vec<Vec<f64>> {
+        let mut out = vec![self.drawn()];
         let drawn = self.width(&out[0]);
         let step = (widest - narrowest) / STEPS;
         for end in [narrowest, widest] {
-            let mut x = vec![0.0; 3 * self.links];
+            let mut x = self.drawn();
             let count = ((end - drawn) / step).abs().ceil();
             for i in 1..=count as u32 {
-                self.fit(&mut x, drawn + (end - drawn) * f64::from(i) / count);
+                let width = drawn + (end - drawn) * f64::from(i) / count;
+                assert!(self.fits(&mut x, To::Width(width)), "no pose at {width} mm");
                 out.push(x.clone());
             }
         }
@@ -258,7 +279,7 @@ impl Gripper {
     }
 
     /// Of teeth the links, the first of them a pinion where the other is a rack, and the carrier.
-    pub(super) fn meshing(&self, t: &FiledTeeth) -> [usize; 3] {
+    pub(in super::super::super) fn meshing(&self, t: &FiledTeeth) -> [usize; 3] {
         let [a, b] = t.held.map(|j| self.joints[j].links);
         let carrier = a.into_iter().find(|l| b.contains(l)).unwrap();
         let other = |ends: [usize; 2]| ends[usize::from(ends[0] == carrier)];
@@ -266,7 +287,7 @@ impl Gripper {
     }
 
     /// Where pitch circles touch, which is where both have the same velocity, and which way teeth press.
-    pub(super) fn pitch(&self, x: &[f64], t: &FiledTeeth) -> [Point; 2] {
+    pub(in super::super::super) fn pitch(&self, x: &[f64], t: &FiledTeeth) -> [Point; 2] {
         let [first, second, carrier] = self.meshing(t);
         let [a, b] = t.held.map(|j| &self.joints[j]);
         let centres = [a, b].map(|j| place(x, carrier, j.at));
