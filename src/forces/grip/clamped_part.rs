@@ -1,7 +1,7 @@
 //! A part between the contacts of a mechanism with its drives at rest, prepared for the analysis of closure.
 
 use crate::geom::vector::{add, length, scale, sub};
-use crate::grip::faces::{JawFace, turned_about};
+use crate::grip::faces::JawFace;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::motion::pose::Pose;
@@ -9,8 +9,6 @@ use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::contacts;
 use crate::statics::reactions::drives::driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE};
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::Rng;
 use ozols_dense::{Matrix, svd};
 use thiserror::Error;
 
@@ -130,35 +128,6 @@ impl ClampedPart {
     #[must_use]
     pub fn smooth(&self) -> Vec<JawFace> {
         self.faces.iter().map(|f| f.smooth()).collect()
-    }
-
-    /// Returns the part with inaccurate contacts. Each point is distributed uniformly within `tolerance` of its
-    /// position. Each face is tipped about a random line in it by an angle that moves its rim by at most as much. For a
-    /// face without a stated size, the size of the part is used.
-    #[must_use]
-    pub fn out_of_true(&self, tolerance: f64, random: &mut ChaCha8Rng) -> ClampedPart {
-        let mut out = self.clone();
-        let mut symmetric = || {
-            #[allow(clippy::cast_precision_loss, reason = "53 bits of a double")]
-            let even = (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-            2.0 * even - 1.0
-        };
-        for face in &self.faces {
-            let shift = loop {
-                let v = [symmetric(), symmetric(), symmetric()];
-                if length(v) <= 1.0 {
-                    break scale(v, tolerance);
-                }
-            };
-            let (j, angle) = (face.joint, std::f64::consts::PI * symmetric());
-            let tip = symmetric() * tolerance / face.reach().unwrap_or(self.size);
-            out.geometry.points[j] = add(out.geometry.points[j], shift);
-            let [x, _, z] = out.geometry.axes[j];
-            let line = turned_about(z, angle, x);
-            let axes = out.geometry.axes[j].map(|a| turned_about(line, tip, a));
-            out.geometry.axes[j] = axes;
-        }
-        out
     }
 }
 

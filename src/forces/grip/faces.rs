@@ -4,7 +4,7 @@
 //! limited together. Friction that a face uses at its rim is not available again to resist a turn, or while the face is
 //! tipped over an edge.
 
-use crate::geom::vector::{add_scaled, cross, dot, sub};
+use crate::geom::vector::add_scaled;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::statics::reactions::contact::Contact;
@@ -129,12 +129,4 @@ impl JawFace {
             PressureArea::Point => None,
         }
     }
-}
-
-/// Rotates a vector about a unit axis by an angle `[rad]`.
-pub(super) fn turned_about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
-    let (sin, cos) = angle.sin_cos();
-    let along = axis.map(|a| a * dot(axis, v));
-    let across = sub(v, along);
-    add_scaled(add_scaled(along, cos, across), sin, cross(axis, across))
 }

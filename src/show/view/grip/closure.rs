@@ -5,7 +5,7 @@ use crate::format::{plural, significant};
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
 use crate::grip::faces::{JawFace, PressureArea};
-use crate::grip::force_closure::{ClosureShares, ForceClosure, NOTHING};
+use crate::grip::force_closure::{ForceClosure, NOTHING};
 use crate::model::mechanism::Mechanism;
 use crate::view::span;
 use crate::view::terminal::layout::{fit, table};
@@ -23,8 +23,6 @@ pub struct ClosureData<'a> {
     pub force: ForceClosure,
     /// Without.
     pub form: ForceClosure,
-    /// Of parts out of true, where they were asked for.
-    pub samples: Option<ClosureShares>,
 }
 
 /// A load on the part: the moment over the part's size, and the force.
@@ -114,11 +112,6 @@ fn shape(f: &JawFace) -> &'static str {
     }
 }
 
-#[allow(clippy::cast_precision_loss, reason = "counts of samples")]
-fn share(n: usize, of: usize) -> f64 {
-    n as f64 / of as f64
-}
-
 impl ClosureData<'_> {
     /// Returns what moments are divided by: root mean square distance of the contacts from their middle `[m]`.
     fn size(&self) -> f64 {
@@ -148,18 +141,6 @@ impl ClosureData<'_> {
                 "friction": f.friction,
             })
         };
-        let samples = self.samples.as_ref().map(|s| {
-            json!({
-                "samples": s.samples,
-                "tolerance": s.tolerance,
-                "force_closed": s.force_closed,
-                "force_closed_share": share(s.force_closed, s.samples),
-                "form_closed": s.form_closed,
-                "form_closed_share": share(s.form_closed, s.samples),
-                "force_undecided": s.force_undecided,
-                "form_undecided": s.form_undecided,
-            })
-        });
         let middle = [0, 1, 2].map(|i| g.middle[i] + g.size * part.middle[i]);
         json!({
             "mechanism": m.name,
@@ -171,7 +152,6 @@ impl ClosureData<'_> {
             "contacts": part.faces.iter().map(contact).collect::<Value>(),
             "force_closure": margin(&self.force),
             "form_closure": margin(&self.form),
-            "samples": samples,
         })
     }
 
@@ -234,25 +214,6 @@ impl ClosureData<'_> {
         let rows = pairs.map(|((d, a), (_, b))| vec![words(d), amount(*a), amount(*b)]);
         let head = ["load on the part", "resisted", "without friction"];
         writeln!(out, "\n{}", table(&head, rows.collect(), width))?;
-        if let Some(s) = &self.samples {
-            writeln!(
-                out,
-                "\n  of {} with contacts out by up to {}: {} with force closure ({:.1} %), {} with form closure ({:.1} %)",
-                plural(s.samples, "sample"),
-                self.long(s.tolerance),
-                s.force_closed,
-                100.0 * share(s.force_closed, s.samples),
-                s.form_closed,
-                100.0 * share(s.form_closed, s.samples)
-            )?;
-            if s.force_undecided + s.form_undecided > 0 {
-                writeln!(
-                    out,
-                    "  undecided, the margin within the accuracy of the programmes: force closure of {}, form closure of {}",
-                    s.force_undecided, s.form_undecided
-                )?;
-            }
-        }
         Ok(())
     }
 }
