@@ -153,17 +153,9 @@ fn motions(
                 twist: *twist,
             }));
     }
-    let rows: Vec<Vec<f64>> = free.columns.iter().map(|c| free.row(c)).collect();
-    let height = rows.first().map_or(0, Vec::len);
-    let a = Matrix::from_fn(height.max(1), rows.len(), |r, c| {
-        rows[c].get(r).copied().unwrap_or(0.0)
-    });
-    let found = svd(&a).ok_or(Unsolved::NoConvergence)?;
-    let null = found.null_space(found.rank(TOLERANCE));
     let dim = geometry.basis.len();
-    let all = (0..null.ncols()).map(|i| {
-        let speeds = null.col(i);
-        let mut out = free.link_twists(m.links.len(), speeds)[object].to_vec();
+    let all = free.motions()?.into_iter().map(|speeds| {
+        let mut out = free.link_twists(m.links.len(), &speeds)[object].to_vec();
         for (k, face) in faces.iter().enumerate() {
             let own = &speeds[first + k * dim..][..dim];
             let against = geometry.basis.iter().zip(own);

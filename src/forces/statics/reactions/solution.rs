@@ -1,5 +1,6 @@
 //! Joint reactions and their reliability.
 
+use crate::geom::vector::{add, sub};
 use crate::model::joint_type::{CoupledFreedom, Freedom};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::statics::reactions::contact::ContactForce;
@@ -194,10 +195,8 @@ pub(crate) fn left_over(
     let mut sums = loads.to_vec();
     for &j in &geometry.joints {
         let [a, b] = m.joints[j].links;
-        for i in 0..6 {
-            sums[a][i] -= wrenches[j][i];
-            sums[b][i] += wrenches[j][i];
-        }
+        sums[a] = sub(sums[a], wrenches[j]);
+        sums[b] = add(sums[b], wrenches[j]);
     }
     sums[m.frame()] = [0.0; 6];
     greatest(sums.iter().flatten())
