@@ -16,12 +16,10 @@ mod drawn;
 mod frame;
 mod labels;
 mod line;
-mod outline;
 mod page;
 mod polygons;
 
 pub use data::{Axis, Band, Bands, Chart, Scale, Series, Style, VerdictKind};
-pub use outline::Outline;
 pub use page::page;
 pub use polygons::{Panel, PanelPair, PlanArrow, Polygons};
 

@@ -2,13 +2,13 @@
 
 use crate::api::MAX_DESCRIPTION_BYTES;
 use crate::cli::option::named::File;
-use crate::cli::option::{Global, TextOrJson, load};
+use crate::cli::option::{TextOrJson, load};
 use crate::cli::terminal::{Done, charts, output};
 use crate::file::disk;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
 use crate::grip::clamped_part::ClampedPart;
-use crate::grip::force_closure::{closure, shares};
+use crate::grip::force_closure::closure;
 use crate::grip::grip;
 use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
@@ -45,12 +45,6 @@ pub(in crate::cli) struct Grip {
     /// Clamped state [default: the first with contacts].
     #[arg(long, requires = "closure")]
     state: Option<String>,
-    /// Also report the share of samples that keep closure if contacts are misplaced by up to this length, in the file's unit.
-    #[arg(long, value_name = "LENGTH", requires = "closure")]
-    tolerance: Option<f64>,
-    /// Number of samples.
-    #[arg(long, value_name = "N", requires = "tolerance", default_value = "200")]
-    samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextOrJson,
@@ -72,9 +66,9 @@ fn vector(text: &str) -> Result<[f64; 3], String> {
         .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
+pub(in crate::cli) fn run(a: &Grip) -> anyhow::Result<Done> {
     if a.closure {
-        return run_closure(args, a);
+        return run_closure(a);
     }
     let (name, bytes) = load::named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
@@ -175,33 +169,16 @@ fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
 }
 
 /// Says how firmly the contacts of any clamped mechanism hold the part.
-fn run_closure(args: &Global, a: &Grip) -> anyhow::Result<Done> {
+fn run_closure(a: &Grip) -> anyhow::Result<Done> {
     let m = load::mechanism(&a.file)?;
     let part = ClampedPart::new(&m, state(&m, a.state.as_deref())?)?;
     let force = closure(&part, &part.faces)?;
     let form = closure(&part, &part.smooth())?;
-    let samples = match a.tolerance {
-        None => None,
-        Some(t) => {
-            ensure!(
-                t > 0.0 && t.is_finite(),
-                "--tolerance must be a positive length"
-            );
-            ensure!(a.samples > 0, "--samples must be at least 1");
-            Some(shares(
-                &part,
-                t * m.length_unit.metres,
-                a.samples,
-                args.seed,
-            )?)
-        }
-    };
     let shown = ClosureData {
         mechanism: &m,
         part: &part,
         force,
         form,
-        samples,
     };
     output::to(a.output.as_deref(), |out| {
         match a.format {

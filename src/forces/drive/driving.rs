@@ -1,10 +1,9 @@
 //! Design and run of a torsional drive: bar, missing angle, cam spring, programme, and the motion of its payload.
 
-use crate::drive::cam::{Cam, Magnet, Profile, magnet};
+use crate::drive::cam::CamDesign;
 use crate::drive::programme::{Endurance, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
-use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
-use crate::model;
+use crate::drive::torsion::{Bar, Sizing, Wanted, frequency, friction_energy};
 use crate::model::drive::{Damping, DriveSpec};
 use serde::Serialize;
 
@@ -22,25 +21,6 @@ pub enum DampingFrom {
     MissingAngle,
     /// There is no damping.
     None,
-}
-
-/// Number of points of a cam from groove to groove.
-pub const PROFILE_POINTS: u32 = 180;
-
-/// The cam's spring by the formulas and by the simulation, its profile and its electromagnets.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CamDesign {
-    /// The spring by equation (14).
-    pub spring: CamSpring,
-    /// The spring that brings the disc to its latch at rest, if there is one.
-    pub needed: Option<CamSpring>,
-    /// The spring that gives the work fed in this run.
-    pub fitted: CamSpring,
-    /// The action of the electromagnets against the fitted spring.
-    #[serde(rename = "electromagnet")]
-    pub magnet: Magnet,
-    /// The profile, if the cam's and the roller's radius are stated.
-    pub profile: Option<Profile>,
 }
 
 /// The motion of a payload. SI units.
@@ -166,10 +146,10 @@ fn damping(spec: &DriveSpec, stiffness: f64) -> (Damping, DampingFrom) {
 }
 
 /// Returns the work of the cam that brings both discs to their latch at rest, if there is such work.
-fn needed_feed(discs: &[Disc; 2], latch: Latch, feed: &Feed) -> Result<Option<f64>, SwingError> {
+fn needed_feed(discs: &[Disc; 2], latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
     let needs = discs
         .iter()
-        .map(|d| d.needed_feed(latch, feed))
+        .map(|d| d.needed_feed(latch, from))
         .collect::<Result<Vec<_>, _>>()?;
     Ok(needs
         .into_iter()
@@ -202,10 +182,10 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
     });
     let friction_energy = friction_energy(stiffness, spec.twist, missing);
     let feed = Feed {
-        energy: spec.push.energy(spec.twist).unwrap_or(friction_energy),
-        pieces: spec.push.pieces(),
+        energy: spec.push.energy.unwrap_or(friction_energy),
+        from: spec.push.from,
     };
-    let needed_feed = needed_feed(&discs, latch, &feed)?;
+    let needed_feed = needed_feed(&discs, latch, feed.from)?;
     let module = Module { discs, latch, feed };
     let run = module.run(&spec.programme)?;
     let endurance = module.endurance(&spec.programme)?;
@@ -218,7 +198,7 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
         missing,
         friction_energy,
         needed_feed,
-        feed: module.feed.energy,
+        feed: feed.energy,
         cam: None,
         motions: spec
             .inertias
@@ -227,30 +207,6 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
         run,
         endurance,
     };
-    design.cam = spec.cam.map(|c| cam(c, spec.twist, &design));
+    design.cam = spec.cam.map(|c| CamDesign::new(&c, &design));
     Ok(design)
-}
-
-/// Returns the cam of a design, for swings of `twist` to either side of the middle.
-fn cam(c: model::drive::Cam, twist: f64, design: &Design) -> CamDesign {
-    let spring = |energy| CamSpring::for_friction(energy, c.efficiency, c.mounting, c.stroke);
-    let profile = c.profile.map(|(radius, roller)| {
-        let cam = Cam {
-            half_swing: twist,
-            feed: design.module.feed.clone(),
-            stroke: c.stroke,
-            mounting: c.mounting,
-            radius,
-            roller,
-        };
-        cam.profile(PROFILE_POINTS)
-    });
-    let fitted = spring(design.feed);
-    CamDesign {
-        spring: spring(design.friction_energy),
-        needed: design.needed_feed.map(spring),
-        fitted,
-        magnet: magnet(&design.run, &fitted),
-        profile,
-    }
 }

@@ -4,7 +4,7 @@ use crate::drive::swing::{Disc, End, Feed, Latch, Swing, SwingError};
 use crate::model::drive::ProgrammeStep;
 
 /// Two discs on one bar.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Module {
     /// The discs; both have the bar's stiffness.
     pub discs: [Disc; 2],
@@ -114,7 +114,7 @@ impl Run {
 
 /// Returns the discs that a programme releases, in order.
 #[must_use]
-pub(crate) fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
+fn swings(programme: &[ProgrammeStep]) -> Vec<usize> {
     let disc = |s: &ProgrammeStep| match s {
         ProgrammeStep::Swing(disc) => Some(*disc),
         ProgrammeStep::Dwell(_) => None,
@@ -165,9 +165,12 @@ impl Module {
             at: self.latch.at - neutral,
             ..self.latch
         };
-        let feed = self.feed.moved(-neutral);
+        let feed = Feed {
+            from: self.feed.from - neutral,
+            ..self.feed
+        };
         let start = self.latch.at - own + neutral;
-        let swing = self.discs[disc].swing(start, latch, &feed)?;
+        let swing = self.discs[disc].swing(start, latch, feed)?;
         now.places[disc] += 2 * onward;
         now.offsets[disc] = way * (swing.place - latch.at);
         Ok(swing)

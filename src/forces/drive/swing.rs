@@ -19,54 +19,26 @@ pub struct Disc {
     pub coulomb: f64,
 }
 
-/// The cam's push: a piecewise constant moment, the last piece up to the latch.
-#[derive(Debug, Clone, PartialEq)]
+/// The cam's push: a constant moment from a position to the latch.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feed {
-    /// Work of all pieces. `[J]`
+    /// Its work. `[J]`
     pub energy: f64,
-    /// The pieces in order: the position where each begins `[rad]`, and its moment as a multiple of a common one.
-    pub pieces: Vec<(f64, f64)>,
+    /// The position where it begins. `[rad]`
+    pub from: f64,
 }
 
 impl Feed {
-    /// Creates a constant moment from a position to the latch.
-    #[must_use]
-    pub fn even(energy: f64, from: f64) -> Feed {
-        Feed {
-            energy,
-            pieces: vec![(from, 1.0)],
-        }
-    }
+    /// Creates a push without work, which moves nothing.
+    pub const NONE: Feed = Feed {
+        energy: 0.0,
+        from: 0.0,
+    };
 
-    /// Returns the position where it begins. `[rad]`
+    /// Returns the moment up to a latch, or `None` if nothing is fed before it. `[N·m]`
     #[must_use]
-    pub fn begins(&self) -> f64 {
-        self.pieces.first().map_or(0.0, |p| p.0)
-    }
-
-    /// Returns the positions where pieces begin and end `[rad]` and their moments `[N·m]`, up to a latch. Empty if nothing is fed.
-    #[must_use]
-    pub fn moments(&self, latch: f64) -> Vec<([f64; 2], f64)> {
-        let ends = self.pieces.iter().skip(1).map(|p| p.0).chain([latch]);
-        let within = self.pieces.iter().zip(ends);
-        let within = within.map(|(&(from, moment), to)| ([from, to.min(latch)], moment));
-        let pieces: Vec<_> = within.filter(|([from, to], _)| from < to).collect();
-        let work: f64 = pieces.iter().map(|([from, to], m)| m * (to - from)).sum();
-        if !(self.energy > 0.0 && work > 0.0) {
-            return Vec::new();
-        }
-        let scaled = |(place, m)| (place, self.energy * m / work);
-        pieces.into_iter().map(scaled).collect()
-    }
-
-    /// Returns the push with all positions increased by an offset. `[rad]`
-    #[must_use]
-    pub fn moved(&self, by: f64) -> Feed {
-        let pieces = self.pieces.iter().map(|&(from, m)| (from + by, m));
-        Feed {
-            energy: self.energy,
-            pieces: pieces.collect(),
-        }
+    pub fn moment(&self, latch: f64) -> Option<f64> {
+        (self.energy > 0.0 && self.from < latch).then(|| self.energy / (latch - self.from))
     }
 }
 
@@ -237,7 +209,7 @@ impl Disc {
     ///
     /// # Errors
     /// Returns an error if the disc does not swing.
-    pub fn swing(&self, start: f64, latch: Latch, feed: &Feed) -> Result<Swing, SwingError> {
+    pub fn swing(&self, start: f64, latch: Latch, feed: Feed) -> Result<Swing, SwingError> {
         self.check()?;
         let (mut u, mut v, mut t) = (-start, 0.0, 0.0);
         let mut pieces = Vec::new();
@@ -246,10 +218,9 @@ impl Disc {
             ..Balance::default()
         };
         let (mut arrived, mut push_begins) = (false, None);
-        let pushed = feed.moments(latch.at);
-        let before = pushed.first().map_or(latch.at, |([from, _], _)| *from);
-        let pushed = pushed.into_iter().map(|([_, to], moment)| (to, moment));
-        for (bound, moment) in [(before, 0.0)].into_iter().chain(pushed) {
+        let pushed = feed.moment(latch.at);
+        let before = pushed.map_or(latch.at, |_| feed.from);
+        for (bound, moment) in [(before, 0.0), (latch.at, pushed.unwrap_or(0.0))] {
             if u >= bound {
                 continue;
             }
@@ -364,19 +335,14 @@ impl Disc {
             + cosine * sine * with_sine
     }
 
-    /// Returns the smallest work of the cam with which a swing from `-latch.at` reaches the latch, with pieces in the proportions of
-    /// `feed`. The disc arrives at rest if no piece pushes more than the one before. Returns `None` if no work is enough, because the
-    /// disc is stuck or stops before the push begins. `[J]`
+    /// Returns the smallest work of a push `from` a position with which a swing from `-latch.at` reaches the latch, at
+    /// rest. Returns `None` if no work is enough, because the disc is stuck or stops before the push begins. `[J]`
     ///
     /// # Errors
     /// Returns an error in the same cases as [`Disc::swing`].
-    pub fn needed_feed(&self, latch: Latch, feed: &Feed) -> Result<Option<f64>, SwingError> {
+    pub fn needed_feed(&self, latch: Latch, from: f64) -> Result<Option<f64>, SwingError> {
         let arrives = |energy: f64| -> Result<bool, SwingError> {
-            let feed = Feed {
-                energy,
-                pieces: feed.pieces.clone(),
-            };
-            let swing = self.swing(latch.at, latch, &feed)?;
+            let swing = self.swing(latch.at, latch, Feed { energy, from })?;
             Ok(matches!(swing.end, End::Latched { .. }))
         };
         if arrives(0.0)? {

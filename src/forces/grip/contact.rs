@@ -3,7 +3,7 @@
 //! Axes: x along the gripper's axis of symmetry from the pivots to the part, y from the lower to the upper lever, z
 //! along the pivots and the part. The origin is midway between the pivots.
 
-use crate::geom::vector::{cross_plane, dot, turned};
+use crate::geom::vector::{add, add_scaled, cross_plane, dot, norm, quarter, scale, sub, turned};
 use crate::grip::lever_arm::Lever;
 use std::fmt;
 
@@ -175,11 +175,8 @@ impl Gripper {
         let theta = lever.bisector_angle();
         let pivot_there = [-lever.length * theta.sin(), -lever.length * theta.cos()];
         let centre_there = [0.0, -to_centre];
-        let across = [
-            centre_there[0] - pivot_there[0],
-            centre_there[1] - pivot_there[1],
-        ];
-        let reach = across[0].hypot(across[1]);
+        let across = sub(centre_there, pivot_there);
+        let reach = norm(across);
         let ahead = (reach - self.pivot.abs()) * (reach + self.pivot.abs());
         // At a difference this small the part is between the pivots.
         if ahead.is_nan() || ahead <= 1e-18 * reach * reach {
@@ -192,18 +189,13 @@ impl Gripper {
         let pivot = [0.0, self.pivot];
         let wanted = [centre[0], -self.pivot];
         let turn = cross_plane(across, wanted).atan2(dot(across, wanted));
-        let arm = turned([-pivot_there[0], -pivot_there[1]], turn);
-        let vertex = [pivot[0] + arm[0], pivot[1] + arm[1]];
+        let vertex = add(pivot, turned(scale(pivot_there, -1.0), turn));
         let down = turned([0.0, -1.0], turn);
         let along = lever.face_distance(diameter);
         let contact = |name, lever, far: bool| {
             let tangent = turned(down, if far { half } else { -half });
-            let towards = if far { -1.0 } else { 1.0 };
-            let normal = [-tangent[1] * towards, tangent[0] * towards];
-            let point = [
-                vertex[0] + along * tangent[0],
-                vertex[1] + along * tangent[1],
-            ];
+            let normal = scale(quarter(tangent), if far { -1.0 } else { 1.0 });
+            let point = add_scaled(vertex, along, tangent);
             // The face that opens counterclockwise from the bisector has the part on its clockwise side.
             let mirror = |v: Planar| if lever == 1 { [v[0], -v[1]] } else { v };
             Contact {

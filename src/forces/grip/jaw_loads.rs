@@ -21,7 +21,7 @@
 
 use crate::geom::exact::ExactError;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{cross, dot, sub};
+use crate::geom::vector::{self, across, add, add_scaled, cross, dot, length, sub};
 use crate::grip::clamping::{DiameterRow, HoldVerdict, Study, study};
 use crate::grip::contact::{self, Contact, Unholdable};
 use crate::grip::lever_arm::LeverError;
@@ -118,12 +118,11 @@ impl Axes {
     }
 
     fn point(&self, p: [f64; 3]) -> [f64; 3] {
-        let d = self.direction(p);
-        [0, 1, 2].map(|i| self.origin[i] + d[i])
+        add(self.origin, self.direction(p))
     }
 
     fn flat(&self, p: [f64; 3]) -> [f64; 2] {
-        let d = [0, 1, 2].map(|i| p[i] - self.origin[i]);
+        let d = sub(p, self.origin);
         [dot(d, self.unit[0]), dot(d, self.unit[1])]
     }
 
@@ -193,25 +192,19 @@ fn mean(points: &[[f64; 3]]) -> [f64; 3] {
 }
 
 fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let size = dot(a, a).sqrt();
-    (size > 0.0).then(|| a.map(|x| x / size))
+    (length(a) > 0.0).then(|| vector::unit(a))
 }
 
 /// Returns the gripper's axes, from the contacts and the hinges of the levers along `hinge`.
 fn axes(contacts: [[f64; 3]; 4], pivots: [[f64; 3]; 2], hinge: [f64; 3]) -> Option<Axes> {
-    let across = |v: [f64; 3]| {
-        let along = dot(v, hinge);
-        [0, 1, 2].map(|i| v[i] - along * hinge[i])
-    };
     let ahead = sub(mean(&contacts), mean(&pivots));
-    let x = unit(across(ahead))?;
-    let up = across(sub(mean(&contacts[..2]), mean(&contacts[2..])));
-    let y = unit(sub(up, x.map(|c| c * dot(up, x))))?;
-    let (z, along) = (cross(x, y), dot(ahead, hinge));
+    let x = unit(across(ahead, hinge))?;
+    let up = across(sub(mean(&contacts[..2]), mean(&contacts[2..])), hinge);
+    let y = unit(across(up, x))?;
     Some(Axes {
         // Midway between the pivots, in the plane of the contacts.
-        origin: [0, 1, 2].map(|i| mean(&pivots)[i] + along * hinge[i]),
-        unit: [x, y, z],
+        origin: add_scaled(mean(&pivots), dot(ahead, hinge), hinge),
+        unit: [x, y, cross(x, y)],
     })
 }
 
@@ -383,10 +376,6 @@ fn hinge(pose: &Pose, joint: JointId) -> Option<usize> {
 
 /// Returns the point of a lever's face at a distance from the vertex, with the lever as it holds the nominal part.
 fn on_face(nominal: &contact::TouchingPose, c: &Contact, along: f64) -> [f64; 3] {
-    let vertex = nominal.vertices[c.lever];
-    [
-        vertex[0] + along * c.tangent[0],
-        vertex[1] + along * c.tangent[1],
-        0.0,
-    ]
+    let [x, y] = add_scaled(nominal.vertices[c.lever], along, c.tangent);
+    [x, y, 0.0]
 }

@@ -3,6 +3,7 @@
 
 use crate::geom::Reals;
 use crate::geom::Scalars;
+use crate::geom::vector::add;
 use crate::statics::planar::{BodyId, Pair, PairId, PairKind};
 use crate::statics::pose::{Linkage, Pose, cross, length, minus};
 use crate::statics::reactions::JointReaction;
@@ -183,8 +184,7 @@ pub(crate) fn worth(
         let about = [pose[body][0], pose[body][1]];
         let (mut given, mut all) = ([0.0; 3], [0.0; 3]);
         for l in loads.iter().filter(|l| l.body == body) {
-            let own = [l.force[0], l.force[1], l.moment_about(about)];
-            (0..3).for_each(|i| given[i] += own[i]);
+            given = add(given, [l.force[0], l.force[1], l.moment_about(about)]);
         }
         for r in reactions {
             let to = if pairs.contains(&r.pair) {
@@ -192,10 +192,9 @@ pub(crate) fn worth(
             } else {
                 &mut given
             };
-            let own = r.on(linkage, body, about);
-            (0..3).for_each(|i| to[i] += own[i]);
+            *to = add(*to, r.on(linkage, body, about));
         }
-        (0..3).for_each(|i| all[i] += given[i]);
+        all = add(all, given);
         for sum in [&mut given, &mut all] {
             sum[2] /= linkage.size;
         }

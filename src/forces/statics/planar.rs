@@ -7,6 +7,7 @@ use crate::geom::vector::{X, Y, Z, across, cross, dot, length, real, unit};
 use crate::geom::{Reals, Scalars};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
+use crate::statics::greatest;
 use std::fmt;
 use thiserror::Error;
 
@@ -355,19 +356,13 @@ pub(crate) fn loads_are_in_plane(m: &Mechanism, state: StateId) -> bool {
         return true;
     };
     let small = |x: f64, of: f64| x.abs() <= 1e-9 * of;
-    let across = |v: [f64; 3]| small(dot(v, n), dot(v, v).sqrt());
-    let along = |v: [f64; 3]| {
-        let tilt = cross(v, n);
-        small(dot(tilt, tilt).sqrt(), dot(v, v).sqrt())
-    };
+    let across = |v: [f64; 3]| small(dot(v, n), length(v));
+    let along = |v: [f64; 3]| small(length(cross(v, n)), length(v));
     let points: Vec<[f64; 3]> = m
         .joints_in(state)
         .map(|j| real(&m.joints[j].frame.point))
         .collect();
-    let size = points
-        .iter()
-        .flatten()
-        .fold(0.0, |a: f64, x| a.max(x.abs()));
+    let size = greatest(points.iter().flatten());
     let mut heights = points.iter().map(|&p| dot(p, n));
     let level = heights.next().unwrap_or(0.0);
     let flat = heights.all(|h| small(h - level, size));

@@ -27,47 +27,15 @@ pub struct Cam {
     pub mounting: f64,
     /// η, mean efficiency.
     pub efficiency: f64,
-    /// Distance of the roller's centre from the disc's axis when the follower is lifted, and the roller's radius, if
-    /// stated. `[m]`
-    pub profile: Option<(f64, f64)>,
 }
 
-/// The cam's push on a swinging disc, from its start to the latch.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Push {
-    /// A constant moment.
-    Even {
-        /// Work in a swing, which replaces that of equation (12). `[J]`
-        energy: Option<f64>,
-        /// Start of the push, from the middle of the swing. `[rad]`
-        from: f64,
-    },
-    /// The pieces in order: the start of each, from the middle of the swing `[rad]`, and its moment `[N·m]`.
-    Pieces(Vec<(f64, f64)>),
-}
-
-impl Push {
-    /// Returns the starts of the pieces, and their moments as multiples of a common one.
-    #[must_use]
-    pub fn pieces(&self) -> Vec<(f64, f64)> {
-        match self {
-            Push::Even { from, .. } => vec![(*from, 1.0)],
-            Push::Pieces(pieces) => pieces.clone(),
-        }
-    }
-
-    /// Returns the work up to a latch, if it is stated. `[J]`
-    #[must_use]
-    pub fn energy(&self, latch: f64) -> Option<f64> {
-        match self {
-            Push::Even { energy, .. } => *energy,
-            Push::Pieces(pieces) => {
-                let ends = pieces.iter().skip(1).map(|p| p.0).chain([latch]);
-                let work = |(p, end): (&(f64, f64), f64)| p.1 * (end - p.0);
-                Some(pieces.iter().zip(ends).map(work).sum())
-            }
-        }
-    }
+/// The cam's push on a swinging disc: a constant moment from its start to the latch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Push {
+    /// Work in a swing, which replaces that of equation (12). `[J]`
+    pub energy: Option<f64>,
+    /// Start of the push, from the middle of the swing. `[rad]`
+    pub from: f64,
 }
 
 /// A payload carried on a disc, for which accelerations are reported.

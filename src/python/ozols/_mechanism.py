@@ -216,34 +216,26 @@ class Mechanism:
         any_acceleration: float | None = None,
         closure: bool = False,
         state: str | None = None,
-        tolerance: float | None = None,
-        samples: int | None = None,
     ) -> Answer:
         """Returns what a lever gripper can hold and the drive moment it needs, as ``ozols grip``.
 
         Accelerations are in m/s², in the axes of the gripper; ``any_acceleration`` acts in any direction. ``closure`` reports
-        how firmly the contacts of a clamped state hold the part, and ``tolerance`` the share of ``samples`` that keep closure
-        if contacts are misplaced by up to this length.
+        how firmly the contacts of a clamped state hold the part.
 
         >>> Mechanism.builtin("lever-gripper").grip()["holds"]
         True
         """
         words = [f"--acceleration={','.join(map(str, a))}" for a in accelerations]
-        given = _commands.options(
-            any_acceleration=any_acceleration, closure=closure, state=state, tolerance=tolerance, samples=samples
-        )
+        given = _commands.options(any_acceleration=any_acceleration, closure=closure, state=state)
         return self._command("grip", [*words, *given])
 
-    def drive(self, *, tolerance: float | None = None, samples: int | None = None) -> Answer:
+    def drive(self) -> Answer:
         """Returns the design of the spring drive in ``[workload.drive]``, as ``ozols drive``.
-
-        ``tolerance`` also reports the share of ``samples`` that latch if stiffness, inertia, losses, cam and latches vary by up
-        to this fraction.
 
         >>> "design" in Mechanism.builtin("torsion-module").drive()
         True
         """
-        return self._command("drive", _commands.options(tolerance=tolerance, samples=samples))
+        return self._command("drive", [])
 
     def _command(self, name: str, options: Iterable[str]) -> Answer:
         """Runs a command on a file of the mechanism."""

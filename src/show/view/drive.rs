@@ -2,10 +2,8 @@
 //! stable contract.
 
 pub mod charts;
-pub mod samples;
 pub mod text;
 
-use crate::drive::RunShares;
 use crate::drive::driving::{Design, Driving};
 use crate::drive::programme::{Endurance, Event, Ran};
 use crate::drive::swing::End;
@@ -26,15 +24,6 @@ pub struct Drive<'a> {
     pub sizing: &'a Sizing,
     /// The drive, where there is a bar.
     pub design: Option<&'a Design>,
-    /// Of drives out of true, where they were asked for.
-    pub samples: Option<RunShares>,
-}
-
-/// Returns the pieces of the push of a drive, (where it begins `[rad]`, moment `[N·m]`), each up to the next and the last up to the
-/// latch; none where nothing is fed.
-fn feed_moments(d: &Design) -> Vec<(f64, f64)> {
-    let pieces = d.module.feed.moments(d.module.latch.at).into_iter();
-    pieces.map(|([from, _], moment)| (from, moment)).collect()
 }
 
 impl<'a> Drive<'a> {
@@ -45,7 +34,6 @@ impl<'a> Drive<'a> {
             file,
             sizing: &found.sizing,
             design: found.design.as_ref(),
-            samples: None,
         }
     }
 
@@ -68,15 +56,15 @@ impl<'a> Drive<'a> {
             "complete": self.complete(),
             "sizing": self.sizing,
             "design": self.design.map(|d| design(spec, d)),
-            "samples": self.samples.as_ref().map(samples::json),
             "claims": about(&self.file.claims, Topic::Drive),
         })
     }
 }
 
 fn design(spec: &DriveSpec, d: &Design) -> Value {
-    let moments = feed_moments(d).into_iter();
-    let moments = moments.map(|(from, moment)| json!({ "from": from, "moment": moment }));
+    let feed = d.module.feed;
+    let moment = feed.moment(d.module.latch.at);
+    let moments = moment.map(|moment| json!({ "from": feed.from, "moment": moment }));
     json!({
         "length": d.bar.length,
         "diameter": d.bar.diameter,
@@ -92,7 +80,7 @@ fn design(spec: &DriveSpec, d: &Design) -> Value {
         "friction_energy": d.friction_energy,
         "needed_feed": d.needed_feed,
         "feed": d.feed,
-        "feed_moments": moments.collect::<Value>(),
+        "feed_moments": Vec::from_iter(moments),
         "cam": d.cam,
         "motions": d.motions,
         "endurance": match d.endurance {

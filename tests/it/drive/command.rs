@@ -177,12 +177,6 @@ fn bad_tables_are_refused_where_they_stand() {
         swings = 5 | swings = 5\nprogramme = ["1"] | swings | and programme exclude each other
         swings = 5 | latch_capture = -1 | latch_capture | an angle from 0
         swings = 5 | feed_from = 50 | feed_from | within the swing
-        swings = 5 | feed_moments = [] | feed_moments | 1 to 1000
-        swings = 5 | feed_moments = [[0, 0]] | feed_moments | above 0
-        swings = 5 | feed_moments = [[0, 1], [20, -1]] | feed_moments | 0 or a number above it
-        swings = 5 | feed_moments = [[10, 1], [10, 2]] | feed_moments | beyond that of the piece before
-        swings = 5 | feed_moments = [[46, 1]] | feed_moments | within the swing
-        swings = 5 | feed_energy = 1\nfeed_moments = [[0, 1]] | feed_energy | and feed_moments exclude each other
 "#,
     ) {
         let text = small_with(from, to);

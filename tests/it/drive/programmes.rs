@@ -1,7 +1,6 @@
 //! Programmes of swings, and their long run.
 
 use crate::common::*;
-mod out_of_true;
 mod repeated;
 
 use ozols::drive::programme::{Endurance, Module};
@@ -19,7 +18,10 @@ fn drive(inertias: [f64; 2], viscous: f64, coulomb: f64, capture: f64, feed: f64
     Module {
         discs: inertias.map(disc),
         latch: Latch { at: 0.8, capture },
-        feed: Feed::even(feed, 0.0),
+        feed: Feed {
+            energy: feed,
+            from: 0.0,
+        },
     }
 }
 
@@ -101,9 +103,15 @@ fn energy_of_a_run_balances() {
 #[test]
 fn the_long_run_tells_enough_from_too_little() {
     let m = module(0.02, 0.1, 0.0);
-    let need = m.discs[0].needed_feed(m.latch, &m.feed).unwrap().unwrap();
+    let need = m.discs[0]
+        .needed_feed(m.latch, m.feed.from)
+        .unwrap()
+        .unwrap();
     let fed = |energy| Module {
-        feed: Feed::even(energy, 0.0),
+        feed: Feed {
+            energy: energy,
+            from: 0.0,
+        },
         ..m
     };
     let one = [ProgrammeStep::Swing(0)];
@@ -134,7 +142,10 @@ fn the_long_run_tells_enough_from_too_little() {
     );
     // Two discs of different inertia that take turns end up repeating as well.
     let both = Module {
-        feed: Feed::even(1.2 * need, 0.0),
+        feed: Feed {
+            energy: 1.2 * need,
+            from: 0.0,
+        },
         ..m
     };
     assert!(matches!(
@@ -209,13 +220,13 @@ fn the_missing_angle_is_that_of_the_disc_that_misses_more() {
         let file = drive_from_bytes("d.toml", text.as_bytes()).unwrap();
         let design = drive(&file.spec).unwrap().design.unwrap();
         let short = design.module.discs.map(|disc| {
-            let none = Feed::even(0.0, 0.0);
+            let none = Feed::NONE;
             let twist = file.spec.twist;
             let latch = Latch {
                 at: twist,
                 capture: twist,
             };
-            twist - disc.swing(twist, latch, &none).unwrap().place
+            twist - disc.swing(twist, latch, none).unwrap().place
         });
         assert!((short[0] - short[1]).abs() > 1e-3, "{short:?}");
         near(design.missing, short[0].max(short[1]), 1e-9);
@@ -252,13 +263,13 @@ fn payloads_are_flung_outwards_in_great_swings() {
 
 /// The same run by a plain integrator in absolute angles, grooves and cam fixed on each disc: where each swing ends.
 fn by_steps(m: &Module, turns: &[usize]) -> Vec<f64> {
-    let (phi, push) = (m.latch.at, m.feed.energy / (m.latch.at - m.feed.begins()));
+    let (phi, push) = (m.latch.at, m.feed.energy / (m.latch.at - m.feed.from));
     let (mut at, mut groove, mut out) = ([phi, 0.0], [phi, 0.0f64], Vec::new());
     for &d in turns {
         let (disc, o) = (&m.discs[d], 1 - d);
         let way = (groove[o] - groove[d]).signum();
         let (pushed_from, target) = (
-            groove[d] + way * (phi + m.feed.begins()),
+            groove[d] + way * (phi + m.feed.from),
             groove[d] + way * 2.0 * phi,
         );
         let moment = |x: f64, v: f64| {
@@ -312,7 +323,10 @@ fn shortfalls_add_up_against_grooves_that_stay() {
         (0.306, &reversing, 40),
     ] {
         let m = Module {
-            feed: Feed::even(feed, 0.0),
+            feed: Feed {
+                energy: feed,
+                from: 0.0,
+            },
             ..built_in
         };
         let steps: Vec<ProgrammeStep> = turns.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
@@ -347,7 +361,10 @@ fn the_push_stays_with_the_grooves_of_the_disc_that_swings() {
                 capture: 0.5,
                 ..weak.latch
             },
-            feed: Feed::even(energy, from),
+            feed: Feed {
+                energy: energy,
+                from: from,
+            },
             ..weak
         };
         let turns = [1, 0, 1, 0];

@@ -35,7 +35,7 @@ fn the_missing_angle_is_the_heavier_discs() {
             capture: twist,
         };
         let disc = design.module.discs[heavier];
-        let swing = disc.swing(twist, latch, &Feed::even(0.0, 0.0)).unwrap();
+        let swing = disc.swing(twist, latch, Feed::NONE).unwrap();
         near(twist - swing.place, 3f64.to_radians(), 1e-9);
     }
 }

@@ -170,18 +170,10 @@ pub struct DriveEntry {
     pub mounting_coefficient: Option<Coordinate>,
     /// Mean efficiency η of the cam. Default: 1.
     pub cam_efficiency: Option<Coordinate>,
-    /// Distance from the disc's axis to the centre of the lifted follower roller. With `roller_radius` it defines the cam's
-    /// profile.
-    pub cam_radius: Option<Coordinate>,
-    /// Radius of the follower's roller.
-    pub roller_radius: Option<Coordinate>,
     /// Work of the cam per swing in J, replacing the friction loss of equation (12).
     pub feed_energy: Option<Coordinate>,
     /// Angle from the middle of the swing at which the cam begins to push. Default: the middle. It pushes up to the latch.
     pub feed_from: Option<Coordinate>,
-    /// A push of several moments, instead of `feed_energy` and `feed_from`: start of each piece, from the middle of the swing,
-    /// and its moment in N·m, as in [[0, 0.5], [20, 0.3]]. The last piece ends at the latch.
-    pub feed_moments: Option<Vec<[Coordinate; 2]>>,
     /// Maximum distance from its groove at which a latch still catches a disc. Default: 1 degree.
     pub latch_capture: Option<Coordinate>,
     /// "stepwise" (default): the discs take turns, and both step in the same direction. "reversing": one disc moves back and

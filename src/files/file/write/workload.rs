@@ -6,7 +6,7 @@ use crate::file::schema::{
     RankingEntry, TermEntry,
 };
 use crate::file::write::number::{angle, number, numbers};
-use crate::model::drive::{DriveSpec, ProgrammeStep, Push};
+use crate::model::drive::{DriveSpec, ProgrammeStep};
 use crate::model::grip::{GripLoad, GripSpec, LeverDrive, PartMass, Pivots, Toward, Transmission};
 use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{ClearanceSum, Ranking};
@@ -82,13 +82,6 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
     let length = |x: f64| number(x, metres);
     let plain = |x: f64| -> Coordinate { number(x, 1.0) };
     let [first, second] = spec.inertias;
-    let (feed_energy, feed_from, feed_moments) = match &spec.push {
-        Push::Even { energy, from } => (energy.map(plain), Some(angle(*from)), None),
-        Push::Pieces(pieces) => {
-            let piece = |p: &(f64, f64)| [angle(p.0), plain(p.1)];
-            (None, None, Some(pieces.iter().map(piece).collect()))
-        }
-    };
     let mut entry = DriveEntry {
         swing_angle: angle(2.0 * spec.twist),
         period: Some(plain(spec.period)),
@@ -109,11 +102,8 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
         spring_stroke: spec.cam.map(|c| length(c.stroke)),
         mounting_coefficient: spec.cam.map(|c| plain(c.mounting)),
         cam_efficiency: spec.cam.map(|c| plain(c.efficiency)),
-        cam_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.0)),
-        roller_radius: spec.cam.and_then(|c| c.profile).map(|p| length(p.1)),
-        feed_energy,
-        feed_from,
-        feed_moments,
+        feed_energy: spec.push.energy.map(plain),
+        feed_from: Some(angle(spec.push.from)),
         latch_capture: Some(angle(spec.capture)),
         ..DriveEntry::default()
     };

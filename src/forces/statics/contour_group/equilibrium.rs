@@ -6,7 +6,7 @@ use crate::statics::pose::{length, minus};
 use crate::statics::{condition, greatest};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 use ozols_dense::Matrix;
 use std::ops::{Mul, Sub};
 
@@ -149,12 +149,15 @@ pub fn exact(g: &GroupPose) -> Option<GroupReactions> {
         }
         last = top[c].clone();
     }
-    let over = |r: usize, by: &BigInt| BigRational::new(rows[r][12].clone(), by.clone());
-    let x: Vec<f64> = (0..12).map(|r| real(&over(r, &rows[r][r]))).collect();
+    let over = |r: usize, by: &BigInt| {
+        let ratio = BigRational::new_raw(rows[r][12].clone(), by.clone());
+        ratio.to_f64().unwrap_or(f64::NAN)
+    };
+    let x: Vec<f64> = (0..12).map(|r| over(r, &rows[r][r])).collect();
     let arm = if rows[10][12].is_zero() {
         f64::INFINITY
     } else {
-        real(&over(11, &rows[10][12]))
+        over(11, &rows[10][12])
     };
     Some(reactions(&x, arm))
 }
@@ -168,23 +171,4 @@ fn whole(row: &[BigRational]) -> Vec<BigInt> {
     row.iter()
         .map(|x| x.numer() * (common / x.denom()))
         .collect()
-}
-
-/// Returns the nearest double, or nearly so, of a rational of any length.
-fn real(x: &BigRational) -> f64 {
-    let bits = |n: &BigInt| i64::try_from(n.bits()).unwrap_or(i64::MAX);
-    if x.is_zero() {
-        return 0.0;
-    }
-    // Scale to 64 bits of quotient, so that neither part overflows a double.
-    let shift = 64 - (bits(x.numer()) - bits(x.denom()));
-    let scaled = if shift >= 0 {
-        (x.numer().abs() << shift) / x.denom()
-    } else {
-        x.numer().abs() / (x.denom() << (-shift))
-    };
-    let value = scaled.to_f64().unwrap_or(f64::NAN);
-    let sign = if x.is_negative() { -1.0 } else { 1.0 };
-    let exponent = i32::try_from(-shift).unwrap_or(0);
-    sign * value * 2f64.powi(exponent)
 }

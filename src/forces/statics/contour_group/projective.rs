@@ -9,6 +9,7 @@
 //! `[Bychkov, Dvornikov & Zhukov 2018]` for the method; R. S. Ball, "A Treatise on the Theory of Screws", 1900, for
 //! forces as lines.
 
+use crate::geom::vector::{add, sub};
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::pose::{cross, dot, minus, plus, quarter};
 
@@ -23,13 +24,7 @@ fn force_at(point: [f64; 2], force: [f64; 2]) -> Line {
 }
 
 fn sum(lines: impl IntoIterator<Item = Line>) -> Line {
-    lines
-        .into_iter()
-        .fold([0.0; 3], |s, l| [s[0] + l[0], s[1] + l[1], s[2] + l[2]])
-}
-
-fn scaled(s: f64, l: Line) -> Line {
-    l.map(|c| s * c)
+    lines.into_iter().fold([0.0; 3], add)
 }
 
 fn finite(p: [f64; 2]) -> Point {
@@ -77,7 +72,7 @@ pub fn solve(g: &GroupPose) -> GroupReactions {
     let (line6, line7) = (force_at(m, to_f), force_at(l, to_k));
     let delta = meet(line6, line7);
     // Moments of link 4 about δ give R34 perpendicular to the direction from D to δ.
-    let on4 = sum([load(0), scaled(-1.0, on6), scaled(-1.0, on7)]);
+    let on4 = sub(sub(load(0), on6), on7);
     let along = plus([delta[0], delta[1]], -delta[2], d);
     let part = moment(delta, on4) / dot(along, along);
     let across = quarter(along).map(|c| c * part);

@@ -2,7 +2,7 @@
 
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role};
-use crate::statics::reactions::geometry::{Geometry, TOLERANCE};
+use crate::statics::reactions::geometry::Geometry;
 use crate::statics::reactions::unsolved::Unsolved;
 use ozols_dense::{Matrix, svd};
 
@@ -78,13 +78,7 @@ pub fn driven(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Driven>, Unsolve
 
 /// Returns the speeds of the freedoms in independent motions that move the outputs.
 fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, Unsolved> {
-    let n = geometry.columns.len();
-    let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
-    let height = rows.first().map_or(0, Vec::len);
-    let jacobian = Matrix::from_fn(height.max(1), n, |r, c| {
-        rows[c].get(r).copied().unwrap_or(0.0)
-    });
-    let null = null_space(&jacobian)?;
+    let null = geometry.motions()?;
     let outputs: Vec<LinkId> = m
         .link_ids()
         .filter(|&l| m.links[l].role == Role::Output)
@@ -101,23 +95,9 @@ fn working_motions(m: &Mechanism, geometry: &Geometry) -> Result<Vec<Vec<f64>>, 
     });
     let svd = svd(&motion).ok_or(Unsolved::NoConvergence)?;
     let moving = svd.values.iter().filter(|&&s| s > 1e-9).count();
-    Ok((0..moving.min(svd.rank(1e-9)))
-        .map(|i| {
-            (0..n)
-                .map(|c| {
-                    null.iter()
-                        .enumerate()
-                        .map(|(k, v)| v[c] * svd.v[(k, i)])
-                        .sum()
-                })
-                .collect()
-        })
-        .collect())
-}
-
-/// Returns an orthonormal basis of the null space.
-fn null_space(a: &Matrix) -> Result<Vec<Vec<f64>>, Unsolved> {
-    let svd = svd(a).ok_or(Unsolved::NoConvergence)?;
-    let null = svd.null_space(svd.rank(TOLERANCE));
-    Ok((0..null.ncols()).map(|i| null.col(i).to_vec()).collect())
+    let one = |i: usize| {
+        let share = |c: usize| null.iter().zip(svd.v.col(i)).map(|(v, x)| v[c] * x).sum();
+        (0..geometry.columns.len()).map(share).collect()
+    };
+    Ok((0..moving.min(svd.rank(1e-9))).map(one).collect())
 }

@@ -2,11 +2,13 @@
 //! couplings. If redundant constraints leave reactions open, one of them is chosen: that of minimum norm, or that of
 //! elastic joints.
 
+use crate::geom::vector::{add, add_scaled, scale};
 use crate::model::loads::{Loads, Stiffness};
 use crate::model::mechanism::Mechanism;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, about, power};
 use crate::statics::reactions::unsolved::Unsolved;
+use crate::statics::reactions::wrench::joined;
 use ozols_dense::{Matrix, Svd, least_squares_pivoted, svd};
 
 /// Wrenches of the joints and unknowns of the couplings.
@@ -32,16 +34,11 @@ impl Transmitted {
     fn add_round(&mut self, geometry: &Geometry, coefficients: &[f64]) {
         let dim = geometry.basis.len();
         for (k, contour) in geometry.contours.iter().enumerate() {
-            let mut round = [0.0; 6];
-            for (b, x) in geometry.basis.iter().zip(&coefficients[k * dim..]) {
-                for (r, y) in round.iter_mut().zip(b) {
-                    *r += x * y;
-                }
-            }
+            let each = geometry.basis.iter().zip(&coefficients[k * dim..]);
+            let round = each.fold([0.0; 6], |sum, (b, x)| add_scaled(sum, *x, *b));
             for &(j, forward) in &contour.joints {
-                for (w, r) in self.joints[j].iter_mut().zip(&round) {
-                    *w += if forward { *r } else { -r };
-                }
+                let sign = if forward { 1.0 } else { -1.0 };
+                self.joints[j] = add_scaled(self.joints[j], sign, round);
             }
         }
         let of_couplings = &coefficients[dim * geometry.contours.len()..];
@@ -56,9 +53,7 @@ impl Transmitted {
         for (c, x) in geometry.couplings.iter().zip(&self.couplings) {
             for (n, end) in c.ends.iter().enumerate() {
                 let beside = c.beside(n, c.meshes);
-                for (w, b) in out[end.joint].iter_mut().zip(&beside) {
-                    *w -= x * b;
-                }
+                out[end.joint] = add_scaled(out[end.joint], -x, beside);
             }
         }
         out
@@ -76,9 +71,8 @@ impl Transmitted {
 
     /// Adds a multiple of other wrenches.
     pub(crate) fn add(&mut self, factor: f64, other: &Transmitted) {
-        let joints = self.joints.iter_mut().flatten();
-        for (w, o) in joints.zip(other.joints.iter().flatten()) {
-            *w += factor * o;
+        for (w, o) in self.joints.iter_mut().zip(&other.joints) {
+            *w = add_scaled(*w, factor, *o);
         }
         for (x, o) in self.couplings.iter_mut().zip(&other.couplings) {
             *x += factor * o;
@@ -244,10 +238,8 @@ pub(crate) fn elastic(
         let mut off: Six = [0.0; 6];
         for x in loads.misalignments.iter().filter(|x| x.joint == j) {
             for (k, axis) in geometry.axes[j].iter().enumerate() {
-                for i in 0..3 {
-                    off[i] += x.turn[k] * axis[i] / turn;
-                    off[3 + i] += x.shift[k] / geometry.size * axis[i] / shift;
-                }
+                let (turned, shifted) = (x.turn[k] / turn, x.shift[k] / geometry.size / shift);
+                off = add(off, joined(scale(*axis, turned), scale(*axis, shifted)));
             }
         }
         aims.extend(off);

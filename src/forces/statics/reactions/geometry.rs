@@ -10,13 +10,16 @@ use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::halves;
-use crate::geom::vector::{add_scaled, sub, unit};
+use crate::geom::vector::{add, add_scaled, scale, sub, unit};
 pub use crate::geom::vector::{cross, dot};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Mode, StateId};
 use crate::motion::pose::Pose;
+use crate::statics::greatest;
 use crate::statics::reactions::couplings::{CouplingEquation, equations};
+use crate::statics::reactions::unsolved::Unsolved;
 pub use crate::statics::reactions::wrench::{FreedomColumn, Six, about, power, wrench};
-use crate::statics::reactions::wrench::{PosedFreedoms, within};
+use crate::statics::reactions::wrench::{PosedFreedoms, joined, within};
+use ozols_dense::{Matrix, svd};
 
 /// Fraction of the largest singular value below which values count as zero.
 pub(crate) const TOLERANCE: f64 = 1e-9;
@@ -71,9 +74,8 @@ impl Geometry {
             let twist = if w == [0.0; 3] {
                 c.twist
             } else {
-                let lever = cross(w, shift);
-                let v = [0, 1, 2].map(|i| (v[i] * pose.length + lever[i]) / spread);
-                [w[0], w[1], w[2], v[0], v[1], v[2]]
+                let v = add_scaled(cross(w, shift), pose.length, v);
+                joined(w, v.map(|x| x / spread))
             };
             FreedomColumn {
                 joint: c.joint,
@@ -152,18 +154,10 @@ impl Geometry {
     pub fn along_tree(&self, joints: usize, loads: &[Six]) -> Vec<Six> {
         let mut hanging = loads.to_vec();
         let mut out = vec![[0.0; 6]; joints];
-        for &TreeStep {
-            link,
-            from,
-            joint,
-            forward,
-        } in self.tree.iter().rev()
-        {
-            let load = hanging[link];
-            for i in 0..6 {
-                hanging[from][i] += load[i];
-                out[joint][i] = if forward { -load[i] } else { load[i] };
-            }
+        for step in self.tree.iter().rev() {
+            let load = hanging[step.link];
+            hanging[step.from] = add(hanging[step.from], load);
+            out[step.joint] = scale(load, if step.forward { -1.0 } else { 1.0 });
         }
         out
     }
@@ -200,25 +194,39 @@ impl Geometry {
         out
     }
 
+    /// Returns the closure matrix of some columns: a column for each of them, as by [`Geometry::row`].
+    pub(crate) fn closure(&self, columns: &[usize]) -> Matrix {
+        let rows: Vec<Vec<f64>> = (columns.iter().map(|&c| self.row(&self.columns[c]))).collect();
+        Matrix::from_fn(self.unknowns(), columns.len(), |r, c| rows[c][r])
+    }
+
+    /// Returns the speeds of the freedoms in independent motions: an orthonormal basis of the null space of the closure
+    /// matrix.
+    ///
+    /// # Errors
+    /// Returns an error if singular values do not converge.
+    pub(crate) fn motions(&self) -> Result<Vec<Vec<f64>>, Unsolved> {
+        let all: Vec<usize> = (0..self.columns.len()).collect();
+        if self.unknowns() == 0 {
+            let alone = |c: &usize| all.iter().map(|x| f64::from(u8::from(x == c))).collect();
+            return Ok(all.iter().map(alone).collect());
+        }
+        let svd = svd(&self.closure(&all)).ok_or(Unsolved::NoConvergence)?;
+        let null = svd.null_space(svd.rank(TOLERANCE));
+        Ok((0..null.ncols()).map(|i| null.col(i).to_vec()).collect())
+    }
+
     /// Returns the twists of the links if the freedoms move at these speeds, by link.
     #[must_use]
     pub fn link_twists(&self, links: usize, speeds: &[f64]) -> Vec<Six> {
         let mut of_joint = vec![[0.0; 6]; self.points.len()];
         for (c, s) in self.columns.iter().zip(speeds) {
-            for (o, t) in of_joint[c.joint].iter_mut().zip(&c.twist) {
-                *o += s * t;
-            }
+            of_joint[c.joint] = add_scaled(of_joint[c.joint], *s, c.twist);
         }
         let mut out = vec![[0.0; 6]; links];
-        for &TreeStep {
-            link,
-            from,
-            joint,
-            forward,
-        } in &self.tree
-        {
-            let sign = if forward { 1.0 } else { -1.0 };
-            out[link] = std::array::from_fn(|i| out[from][i] + sign * of_joint[joint][i]);
+        for step in &self.tree {
+            let sign = if step.forward { 1.0 } else { -1.0 };
+            out[step.link] = add_scaled(out[step.from], sign, of_joint[step.joint]);
         }
         out
     }
@@ -250,12 +258,9 @@ fn middle(joints: &[JointId], points: &[[f64; 3]], length: f64) -> ([f64; 3], f6
     #[allow(clippy::cast_precision_loss, reason = "a count of joints")]
     let count = joints.len().max(1) as f64;
     let mean = [0, 1, 2].map(|i| joints.iter().map(|&j| points[j][i]).sum::<f64>() / count);
-    let from_mean = |p: [f64; 3]| sub(p, mean);
-    let square: f64 = joints
-        .iter()
-        .map(|&j| dot(from_mean(points[j]), from_mean(points[j])))
-        .sum();
-    let far = mean.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+    let off = joints.iter().map(|&j| sub(points[j], mean));
+    let square: f64 = off.map(|v| dot(v, v)).sum();
+    let far = greatest(&mean);
     let spread = (square / count).sqrt();
     if spread > 1e-9 * far && spread > 1e-12 {
         (mean, spread)
@@ -272,11 +277,8 @@ fn carried(mode: &Mode) -> Result<Vec<Six>, ExactError> {
             .collect(),
         MotionSpace::Planar { axes: [n, e1, e2] } => {
             let [n, e1, e2] = [unit(n), unit(e1), unit(e2)];
-            vec![
-                [n[0], n[1], n[2], 0.0, 0.0, 0.0],
-                [0.0, 0.0, 0.0, e1[0], e1[1], e1[2]],
-                [0.0, 0.0, 0.0, e2[0], e2[1], e2[2]],
-            ]
+            let none = [0.0; 3];
+            vec![joined(n, none), joined(none, e1), joined(none, e2)]
         }
     })
 }

@@ -6,14 +6,15 @@
 //! speeds and rates that close. By D'Alembert, a link then carries the force -m a at its mass centre and the moment -(I
 //! α + ω × I ω).
 
-use crate::closure::tree::TreeStep;
-use crate::geom::vector::{cross, dot, real};
+use crate::geom::rigid::halves;
+use crate::geom::vector::{add, add_scaled, cross, dot, length, real, scale};
 use crate::model::loads::Inertia;
 use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::statics::reactions::drives::Driven;
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, TOLERANCE, power};
 use crate::statics::reactions::unsolved::Unsolved;
+use crate::statics::reactions::wrench::joined;
 use crate::statics::{greatest, rounding, without};
 use ozols_dense::{Matrix, svd};
 
@@ -33,23 +34,8 @@ pub(crate) struct LinkMotions {
 
 /// Returns the bracket of two twists: the rate of `t` carried along with velocity `v`.
 fn bracket(v: &Six, t: &Six) -> Six {
-    let (w, u) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
-    let (tw, tv) = ([t[0], t[1], t[2]], [t[3], t[4], t[5]]);
-    let (turn, a, b) = (cross(w, tw), cross(w, tv), cross(u, tw));
-    [
-        turn[0],
-        turn[1],
-        turn[2],
-        a[0] + b[0],
-        a[1] + b[1],
-        a[2] + b[2],
-    ]
-}
-
-fn add(to: &mut Six, factor: f64, x: &Six) {
-    for (o, x) in to.iter_mut().zip(x) {
-        *o += factor * x;
-    }
+    let ((w, u), (tw, tv)) = (halves(v), halves(t));
+    joined(cross(w, tw), add(cross(w, tv), cross(u, tw)))
 }
 
 /// Returns the columns of a joint in the order of passage, with their direction.
@@ -62,18 +48,18 @@ fn walk(geometry: &Geometry, joint: JointId, forward: bool) -> Vec<(usize, f64)>
     }
 }
 
-/// Returns the smallest x with `matrix` x = `right`, or `None` if there is none.
-fn least(matrix: &Matrix, right: &[f64], scale: f64) -> Result<Option<Vec<f64>>, Unsolved> {
+/// Returns the smallest x with `matrix` x = `right`, or an error if there is none.
+fn least(matrix: &Matrix, right: &[f64], scale: f64) -> Result<Vec<f64>, Unsolved> {
     let svd = svd(matrix).ok_or(Unsolved::NoConvergence)?;
     let x = svd.least_norm(svd.rank(TOLERANCE), &Matrix::column(right));
+    let found = matrix.times(&x);
+    let left = found.col(0).iter().zip(right).map(|(a, b)| (a - b).abs());
     let x = x.col(0).to_vec();
-    let left = (0..matrix.nrows()).map(|r| {
-        let sum: f64 = (0..matrix.ncols()).map(|c| matrix[(r, c)] * x[c]).sum();
-        (sum - right[r]).abs()
-    });
-    let size = x.iter().fold(scale, |a, v| a.max(v.abs()));
-    let open = left.fold(0.0, f64::max) > CLOSES * size;
-    Ok((!open && x.iter().all(|v| v.is_finite())).then_some(x))
+    let open = left.fold(0.0, f64::max) > CLOSES * greatest(&x).max(scale);
+    if open || !x.iter().all(|v| v.is_finite()) {
+        return Err(Unsolved::Stuck);
+    }
+    Ok(x)
 }
 
 /// Returns the motion of the links in a pose if the drives move at constant `speeds`: `[rad/s]`, or the file's unit per
@@ -109,24 +95,21 @@ pub(crate) fn motion(
     let free: Vec<usize> = (0..f)
         .filter(|&c| held(&geometry.columns[c]).is_none())
         .collect();
-    let rows: Vec<Vec<f64>> = geometry.columns.iter().map(|c| geometry.row(c)).collect();
-    let height = geometry.unknowns();
-    let part = Matrix::from_fn(height, free.len(), |r, c| rows[free[c]][r]);
-    let stuck = || Unsolved::Stuck;
+    let part = geometry.closure(&free);
+    let all: Vec<usize> = (0..f).collect();
     let mut speed: Vec<f64> = geometry.columns.iter().map(given).collect();
-    let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));
-    let right: Vec<f64> = (0..height)
-        .map(|r| -(0..f).map(|c| rows[c][r] * speed[c]).sum::<f64>())
+    let whole = geometry.closure(&all);
+    let right: Vec<f64> = (0..whole.nrows())
+        .map(|r| -(0..f).map(|c| whole[(r, c)] * speed[c]).sum::<f64>())
         .collect();
-    let found = least(&part, &right, fastest)?.ok_or_else(stuck)?;
+    let found = least(&part, &right, greatest(&speed))?;
     for (&c, x) in free.iter().zip(&found) {
         speed[c] = *x;
     }
-    let fastest = speed.iter().fold(0.0, |a: f64, s| a.max(s.abs()));
     let mut right = to_make_up(geometry, &speed);
     // A ratio is the same in every pose, so rates are coupled in the same way as speeds.
-    right.resize(height, 0.0);
-    let found = least(&part, &right, fastest * fastest)?.ok_or_else(stuck)?;
+    right.resize(geometry.unknowns(), 0.0);
+    let found = least(&part, &right, greatest(&speed).powi(2))?;
     let mut rates = vec![0.0; f];
     for (&c, x) in free.iter().zip(&found) {
         rates[c] = *x;
@@ -143,8 +126,8 @@ fn to_make_up(geometry: &Geometry, speed: &[f64]) -> Vec<f64> {
         for &(joint, forward) in &contour.joints {
             for (c, sign) in walk(geometry, joint, forward) {
                 let t = &geometry.columns[c].twist;
-                add(&mut gain, sign * speed[c], &bracket(&velocity, t));
-                add(&mut velocity, sign * speed[c], t);
+                gain = add_scaled(gain, sign * speed[c], bracket(&velocity, t));
+                velocity = add_scaled(velocity, sign * speed[c], *t);
             }
         }
         right.extend(geometry.basis.iter().map(|b| -power(b, &gain)));
@@ -158,27 +141,21 @@ fn along_tree(links: usize, geometry: &Geometry, speed: &[f64], rates: &[f64]) -
         velocity: vec![[0.0; 6]; links],
         rate: vec![[0.0; 6]; links],
     };
-    for &TreeStep {
-        link,
-        from,
-        joint,
-        forward,
-    } in &geometry.tree
-    {
-        let (mut v, mut a) = (out.velocity[from], out.rate[from]);
-        for (c, sign) in walk(geometry, joint, forward) {
+    for step in &geometry.tree {
+        let (mut v, mut a) = (out.velocity[step.from], out.rate[step.from]);
+        for (c, sign) in walk(geometry, step.joint, step.forward) {
             let t = &geometry.columns[c].twist;
-            add(&mut a, sign * rates[c], t);
-            add(&mut a, sign * speed[c], &bracket(&v, t));
-            add(&mut v, sign * speed[c], t);
+            a = add_scaled(a, sign * rates[c], *t);
+            a = add_scaled(a, sign * speed[c], bracket(&v, t));
+            v = add_scaled(v, sign * speed[c], *t);
         }
-        (out.velocity[link], out.rate[link]) = (v, a);
+        (out.velocity[step.link], out.rate[step.link]) = (v, a);
     }
     out
 }
 
 fn turn(t: &Six) -> [f64; 3] {
-    [t[0], t[1], t[2]]
+    halves(t).0
 }
 
 /// Returns the current inertia of a link about global axes times a vector `[kg·m²]`.
@@ -234,17 +211,15 @@ pub(crate) fn moving_masses(
     pose: &Pose,
     moves: &LinkMotions,
 ) -> Result<Vec<MovingMass>, Unsolved> {
-    let size = |v: [f64; 3]| dot(v, v).sqrt();
-    let fastest = moves
-        .velocity
-        .iter()
-        .map(turn)
-        .max_by(|a, b| size(*a).total_cmp(&size(*b)));
-    let about = fastest.filter(|w| size(*w) > 0.0);
-    let aside = |v: [f64; 3]| {
-        about.is_some_and(|w| size(cross(w, v)) > PARALLEL * size(w) * size(w).max(size(v)))
-    };
-    let flat = !moves.velocity.iter().any(|v| aside(turn(v)));
+    let turns = moves.velocity.iter().map(turn);
+    let fastest = turns
+        .clone()
+        .max_by(|a, b| length(*a).total_cmp(&length(*b)));
+    let about = fastest.unwrap_or_default();
+    let most = PARALLEL * length(about);
+    let flat = turns
+        .into_iter()
+        .all(|v| length(cross(about, v)) <= most * length(about).max(length(v)));
     // Accelerations are sums of terms as large as the squares of the speeds, with lengths in the geometry's size. They
     // are solved for, as were the speeds in them, and each solution adds its rounding.
     let speed = greatest(moves.velocity.iter().flatten());
@@ -258,13 +233,9 @@ pub(crate) fn moving_masses(
         let (v, a) = (&moves.velocity[l], &moves.rate[l]);
         let (w, alpha) = (turn(v), turn(a));
         let centre = geometry.place(pose, l, real(&mass.centre));
-        let at = |t: &Six| {
-            let c = cross(turn(t), centre);
-            [t[3] + c[0], t[4] + c[1], t[5] + c[2]]
-        };
-        let round = cross(w, at(v));
-        let there = at(a);
-        let acceleration = bare([0, 1, 2].map(|i| there[i] + round[i])).map(|x| x * geometry.size);
+        let at = |t: &Six| add(halves(t).1, cross(turn(t), centre));
+        let acceleration = bare(add(at(a), cross(w, at(v))));
+        let acceleration = scale(acceleration, geometry.size);
         let mut moment = [0.0; 3];
         if let Some(inertia) = &mass.inertia {
             if matches!(inertia, Inertia::Plane(_)) && !flat {

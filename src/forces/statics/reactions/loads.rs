@@ -1,6 +1,6 @@
 //! Loads on the links of a mechanism in a pose: weights, inertia forces, and external forces and moments.
 
-use crate::geom::vector::real;
+use crate::geom::vector::{add, real};
 use crate::model::loads::{ExternalForce, Loads, acts_at, acts_in};
 use crate::model::mechanism::{LinkId, Mechanism, StateId};
 use crate::motion::pose::Pose;
@@ -93,10 +93,7 @@ fn summed(m: &Mechanism, geometry: &Geometry, loads: &[LinkLoad]) -> Vec<Six> {
     for x in loads {
         let moment = x.moment.map(|v| v / geometry.size);
         let wrench = geometry.within(&wrench(x.point, x.force, moment));
-        out[x.link]
-            .iter_mut()
-            .zip(wrench)
-            .for_each(|(o, w)| *o += w);
+        out[x.link] = add(out[x.link], wrench);
     }
     out
 }

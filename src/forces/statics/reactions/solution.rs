@@ -1,5 +1,6 @@
 //! Joint reactions and their reliability.
 
+use crate::geom::vector::{add, length, sub};
 use crate::model::joint_type::{CoupledFreedom, Freedom};
 use crate::model::mechanism::{JointId, Mechanism};
 use crate::statics::reactions::contact::ContactForce;
@@ -61,7 +62,7 @@ impl ToothForce {
     /// Returns the magnitude of the force `[N]`.
     #[must_use]
     pub fn size(&self) -> f64 {
-        dot(self.force, self.force).sqrt()
+        length(self.force)
     }
 }
 
@@ -69,13 +70,13 @@ impl JointReaction {
     /// Returns the magnitude of the force `[N]`.
     #[must_use]
     pub fn force_size(&self) -> f64 {
-        dot(self.force, self.force).sqrt()
+        length(self.force)
     }
 
     /// Returns the magnitude of the moment `[N·m]`.
     #[must_use]
     pub fn moment_size(&self) -> f64 {
-        dot(self.moment, self.moment).sqrt()
+        length(self.moment)
     }
 
     fn global(&self, own: [f64; 3], rounding: f64) -> [f64; 3] {
@@ -194,10 +195,8 @@ pub(crate) fn left_over(
     let mut sums = loads.to_vec();
     for &j in &geometry.joints {
         let [a, b] = m.joints[j].links;
-        for i in 0..6 {
-            sums[a][i] -= wrenches[j][i];
-            sums[b][i] += wrenches[j][i];
-        }
+        sums[a] = sub(sums[a], wrenches[j]);
+        sums[b] = add(sums[b], wrenches[j]);
     }
     sums[m.frame()] = [0.0; 6];
     greatest(sums.iter().flatten())

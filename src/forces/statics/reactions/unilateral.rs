@@ -5,6 +5,7 @@
 //! about the normal lie in one elliptic cone, and that moment and tipping share the face (`contact`).
 
 use crate::statics::cone_programme::{ConeProgramme, Row};
+use crate::statics::greatest;
 use crate::statics::reactions::contact::{Contact, Touch};
 use crate::statics::reactions::equations::Transmitted;
 use crate::statics::reactions::geometry::{Geometry, Six};
@@ -82,11 +83,7 @@ pub(crate) fn pushing(
     if allowed(of) {
         return Ok(());
     }
-    let scale = of
-        .joints
-        .iter()
-        .flatten()
-        .fold(0.0, |a: f64, x| a.max(x.abs()));
+    let scale = greatest(of.joints.iter().flatten());
     if stresses.is_empty() || scale == 0.0 {
         return Err(Unsolved::Loose);
     }

@@ -1,54 +1,12 @@
 //! Charts of a drive's programme: angles and energies over time.
 
-use crate::chart::{Axis, Chart, Outline, Series, Style};
-use crate::drive::driving::PROFILE_POINTS;
+use crate::chart::{Axis, Chart, Series, Style};
 use crate::drive::programme::RunMoment;
 use crate::format::csv;
-use crate::view::drive::{Drive, feed_moments};
+use crate::view::drive::Drive;
 
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
-
-/// The cam's profile, where the cam's and the roller's radius are stated; in the file's unit.
-#[must_use]
-pub fn cam(d: &Drive<'_>) -> Option<Outline> {
-    let cam = d.design?.cam.as_ref()?;
-    let (profile, unit) = (cam.profile.as_ref()?, d.file.length_unit);
-    let (_, roller) = d.file.spec.cam?.profile?;
-    let own = |p: [f64; 2]| p.map(|x| x / unit.metres);
-    let pitch = profile.points.iter().map(|p| p.pitch);
-    let mut curves = vec![
-        (
-            "profile".to_owned(),
-            profile.outline.iter().copied().map(own).collect(),
-        ),
-        (
-            "path of the roller".to_owned(),
-            pitch.clone().map(own).collect(),
-        ),
-    ];
-    // The first point of each swing is in a groove.
-    let at = pitch.step_by(PROFILE_POINTS as usize);
-    for (i, [x, y]) in at.enumerate() {
-        let round = (0..48).map(|k| {
-            let (s, c) = (std::f64::consts::TAU * f64::from(k) / 48.0).sin_cos();
-            own([x + roller * c, y + roller * s])
-        });
-        curves.push((format!("roller in groove {}", i + 1), round.collect()));
-    }
-    Some(Outline {
-        title: format!("{}: profile of the cam", d.file.name),
-        subtitle: format!(
-            "{} on the flanks; grooves as the roller is round, to be cut as deep as the latch wants them.",
-            match feed_moments(d.design?).len() {
-                0 | 1 => "An even moment",
-                _ => "The moments that the file states",
-            }
-        ),
-        unit: unit.symbol.to_owned(),
-        curves,
-    })
-}
 
 /// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
 /// outwards from the axis (its x), the part along the axis (its z).

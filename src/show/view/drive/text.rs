@@ -1,21 +1,20 @@
 //! A torsional drive for people: the bar, whether it runs its programme, and why.
 
-use crate::drive::driving::{CamDesign, DampingFrom, Design};
+use crate::drive::cam::CamDesign;
+use crate::drive::driving::{DampingFrom, Design};
 use crate::drive::programme::{Endurance, Event, PATIENCE};
 use crate::drive::swing::End;
 use crate::drive::torsion::{Remedy, decrement, stored_energy};
 use crate::format::{plural, significant};
 use crate::model::claim::Topic;
 use crate::view::claims::{self, about};
-use crate::view::drive::{Drive, feed_moments, samples};
+use crate::view::drive::Drive;
 use crate::view::span;
 use crate::view::terminal::layout::{fit, table};
 use std::fmt::Write;
 
 /// Rows of the programme shown before the rest is left out.
 const SHOWN: usize = 24;
-/// Pieces of the cam's push shown before the rest is left out.
-const PIECES: usize = 6;
 
 /// The report, fitted to a terminal of `width` columns where one is given.
 #[must_use]
@@ -166,9 +165,6 @@ fn designed(
     )?;
     losses(out, d, design)?;
     motions(out, d, design)?;
-    if let Some(samples) = &d.samples {
-        samples::write(out, samples)?;
-    }
     writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
     writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
 }
@@ -198,9 +194,6 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
         )?;
     }
     needed_feed(out, design)?;
-    if let pieces @ [_, _, ..] = &*feed_moments(design) {
-        feed_pieces(out, pieces)?;
-    }
     if d.complete() {
         endurance(out, &design.endurance)?;
     }
@@ -221,43 +214,22 @@ fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result 
 
 /// The work that the cam must give for the disc to arrive.
 fn needed_feed(out: &mut String, design: &Design) -> std::fmt::Result {
-    let arrive = match feed_moments(design).len() {
-        0 | 1 => "to arrive at rest",
-        _ => "to arrive",
-    };
     match design.needed_feed {
         Some(needed) if design.friction_energy > 0.0 => writeln!(
             out,
-            "  {arrive} the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
+            "  to arrive at rest the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
             significant(needed),
             (needed / design.friction_energy - 1.0) * 100.0,
             significant(design.feed)
         ),
         Some(needed) => writeln!(
             out,
-            "  {arrive} the cam must give {} J",
+            "  to arrive at rest the cam must give {} J",
             significant(needed)
         ),
         None => writeln!(
             out,
             "  no work of the cam brings the disc to its latch: it stops before the push begins"
-        ),
-    }
-}
-
-/// The push of a cam that differs from piece to piece.
-fn feed_pieces(out: &mut String, all: &[(f64, f64)]) -> std::fmt::Result {
-    let piece = |(from, moment): &(f64, f64)| {
-        format!("{} N·m from {}", significant(*moment), degrees(*from))
-    };
-    let pieces: Vec<String> = all.iter().take(PIECES).map(piece).collect();
-    write!(out, "  the cam pushes with {}", pieces.join(", "))?;
-    match all.len().saturating_sub(PIECES) {
-        0 => writeln!(out, ", up to the latch"),
-        more => writeln!(
-            out,
-            " and {} more, up to the latch; --format json has them all",
-            plural(more, "piece")
         ),
     }
 }
@@ -282,7 +254,7 @@ fn endurance(out: &mut String, endurance: &Endurance) -> std::fmt::Result {
     }
 }
 
-/// When the electromagnets are on, what that takes, and what the cam looks like.
+/// Writes when the electromagnets are on, and what that takes.
 fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::Result {
     let m = &cam.magnet;
     let times = m.pulses.iter().map(|p| p.off - p.on);
@@ -299,41 +271,7 @@ fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::
         significant(m.energy_per_cycle),
         significant(m.mean_power),
         significant(cam.fitted.rate)
-    )?;
-    let (Some(p), Some((_, roller))) = (&cam.profile, d.file.spec.cam.and_then(|c| c.profile))
-    else {
-        return writeln!(
-            out,
-            "    give cam_radius and roller_radius, and --svg writes the cam's profile as SVG, CSV and DXF"
-        );
-    };
-    writeln!(
-        out,
-        "  cam profile: {}, pressure angle up to {}{}; --svg writes it as SVG, CSV and DXF",
-        plural(p.grooves.len(), "groove"),
-        degrees(p.pressure_angle),
-        if p.both_ways {
-            ""
-        } else {
-            "; its flank begins before the middle and feeds swings one way only"
-        },
-    )?;
-    if roller > p.least_curvature {
-        writeln!(
-            out,
-            "    THE ROLLER IS TOO LARGE: its path bulges with a radius of {}, and a larger roller cuts the flank away",
-            length(d, p.least_curvature)
-        )?;
-    }
-    if !p.closes {
-        writeln!(
-            out,
-            "    {} does not divide a turn: stepwise rotation finds no groove after {} of a disc",
-            degrees(2.0 * d.file.spec.twist),
-            plural(p.grooves.len(), "swing")
-        )?;
-    }
-    Ok(())
+    )
 }
 
 fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {

@@ -4,7 +4,7 @@ mod inertias;
 mod programme;
 
 use crate::file::read::value::quantity::Bound;
-use crate::file::schema::{Coordinate, DriveEntry, MechanismFile};
+use crate::file::schema::{DriveEntry, MechanismFile};
 use crate::file::{Findings, Place};
 use crate::model::drive::{Cam, Damping, DriveSpec, Push};
 use crate::model::mechanism::Mechanism;
@@ -34,24 +34,10 @@ fn cam(t: &Place<'_>, e: &DriveEntry, unit: f64) -> Option<Cam> {
         let given = of_cam.into_iter().filter(|(_, v)| v.is_some());
         given.for_each(|(k, _)| t.needs(k, "spring_stroke"));
     }
-    let radius = t.positive("cam_radius", &e.cam_radius, unit);
-    let roller = t.positive("roller_radius", &e.roller_radius, unit);
-    match (stroke, radius, roller) {
-        (_, Some(_), None) => t.needs("cam_radius", "roller_radius"),
-        (_, None, Some(_)) => t.needs("roller_radius", "cam_radius"),
-        (None, Some(_), Some(_)) => t.needs("cam_radius", "spring_stroke"),
-        (Some(stroke), Some(radius), Some(roller)) if radius <= stroke + roller => {
-            let allowed = "more than spring_stroke and roller_radius together, so that the cam keeps clear of the axis";
-            t.key("cam_radius")
-                .bad("cam_radius", radius / unit, allowed);
-        }
-        _ => {}
-    }
     stroke.map(|stroke| Cam {
         stroke,
         mounting: mounting.unwrap_or(0.0),
         efficiency: efficiency.unwrap_or(1.0),
-        profile: radius.zip(roller),
     })
 }
 
@@ -132,14 +118,8 @@ pub(crate) fn drive(
     })
 }
 
-/// Most pieces of a push.
-const PIECES: usize = 1000;
-
 /// Returns the cam's push over a swing of `twist` to either side.
 fn push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
-    if let Some(list) = &e.feed_moments {
-        return pieces(t, e, list, twist);
-    }
     let key = "feed_from";
     let from = e
         .feed_from
@@ -150,36 +130,5 @@ fn push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
         t.key(key).bad_angle(key, from, allowed);
     }
     let energy = t.not_negative("feed_energy", &e.feed_energy, 1.0);
-    Push::Even { energy, from }
-}
-
-fn pieces(t: &Place<'_>, e: &DriveEntry, list: &[[Coordinate; 2]], twist: f64) -> Push {
-    for (k, given) in [("feed_energy", &e.feed_energy), ("feed_from", &e.feed_from)] {
-        if given.is_some() {
-            t.excludes(k, "feed_moments");
-        }
-    }
-    let at = t.key("feed_moments");
-    let mut pieces: Vec<(f64, f64)> = Vec::new();
-    let count = at.number_of("number of pieces", list.len(), PIECES, "1 to 1000");
-    if count.is_none() {
-        return Push::Pieces(pieces);
-    }
-    for (at, [from, moment]) in at.entries(list) {
-        let (begins, at) = (at.index(0), at.index(1));
-        let from = begins.angle("feed_moments", from);
-        let after = pieces.last().map(|p| p.0);
-        if !(-twist..twist).contains(&from) || after.is_some_and(|last| from <= last) {
-            let allowed =
-                "an angle within the swing, 0 being its middle, beyond that of the piece before";
-            begins.bad_angle("beginning of a piece", from, allowed);
-        }
-        let bound = match after {
-            // The push begins with what pushes.
-            None => Bound::Positive,
-            Some(_) => Bound::NotNegative,
-        };
-        pieces.push((from, at.value("moment", moment, 1.0, bound)));
-    }
-    Push::Pieces(pieces)
+    Push { energy, from }
 }
