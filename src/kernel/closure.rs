@@ -6,10 +6,8 @@
 pub mod contour;
 pub mod coupling;
 pub(crate) mod drive;
-pub mod mirror;
-pub(crate) mod symmetry_image;
+pub mod isometry;
 pub mod tree;
-pub(crate) mod turn;
 pub mod twist;
 
 use crate::closure::contour::{Contour, contour_basis};

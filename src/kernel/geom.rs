@@ -2,7 +2,6 @@
 //! field. A mechanism is evaluated in one of two number systems: residues modulo a prime (exact) or `f64` (measured).
 
 pub mod exact;
-pub(crate) mod exact_vector;
 pub mod expr;
 pub mod extent;
 pub mod number_field;
