@@ -10,7 +10,7 @@
 //! local dimension [Wampler, Hauenstein & Sommese 2011]. The result is numeric and is marked as such: nothing is proven. Random
 //! directions come from a fixed seed.
 
-mod continuation;
+pub(in crate::rank::finite) mod continuation;
 
 use crate::motion::pose::Pose;
 use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, norm};
