@@ -11,7 +11,7 @@ use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
 use crate::redundancy::local_mobility::Idle;
-use ozols_dense::svd;
+use ozols_dense::{add_scaled, difference, dot, largest, norm, svd};
 use std::f64::consts::TAU;
 
 /// The largest coordinate of the animation: radians, or fractions of [`Pose::length`].
@@ -49,7 +49,7 @@ pub fn wiggle(
     let Some(speeds) = speeds(mechanism, state, &pose, idle, which) else {
         return Ok(None);
     };
-    let largest = speeds.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    let largest = largest(&speeds);
     // links at rest in it stay at rest throughout
     let moving = |l: &LinkId| idle[which].links.contains(l);
     let rests = |&c: &usize| {
@@ -65,11 +65,8 @@ pub fn wiggle(
     for step in 0..=STEPS {
         let far = FAR * (TAU * step as f64 / STEPS as f64).sin();
         let ahead: Vec<f64> = speeds.iter().map(|x| x * far / largest).collect();
-        let size = |q: &[f64]| q.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let found = pose.close(ahead.clone(), &held).ok().filter(|q| {
-            let off: Vec<f64> = q.iter().zip(&ahead).map(|(a, b)| a - b).collect();
-            size(&off) <= ASTRAY * size(&ahead)
-        });
+        let near = |q: &Vec<f64>| norm(&difference(q, &ahead)) <= ASTRAY * norm(&ahead);
+        let found = pose.close(ahead.clone(), &held).ok().filter(near);
         closed &= found.is_some();
         let mut there = pose.moved(&found.unwrap_or(ahead)).links;
         // they are connected to moving links, within the closure tolerance
@@ -109,12 +106,11 @@ fn speeds(
         let null = svd.null_space(svd.rank(FLAT));
         let within = |links: &[LinkId]| links.iter().all(|l| motion.links.contains(l));
         let candidates = (0..null.ncols()).map(|c| {
-            let mut v: Vec<f64> = (0..null.nrows()).map(|r| null[(r, c)]).collect();
+            let mut v = null.col(c).to_vec();
             for (_, other) in before.iter().filter(|(links, _)| within(links)) {
-                let along: f64 = v.iter().zip(other).map(|(a, b)| a * b).sum();
-                v.iter_mut().zip(other).for_each(|(a, b)| *a -= along * b);
+                v = add_scaled(&v, -dot(&v, other), other);
             }
-            let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let size = norm(&v);
             v.iter_mut().for_each(|x| *x /= size);
             (size, v)
         });

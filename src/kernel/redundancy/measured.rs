@@ -93,10 +93,7 @@ impl<'a> Measured<'a> {
         let columns: Vec<usize> = (0..self.closure.columns.len())
             .filter(|&c| joints.contains(&self.closure.columns[c].joint))
             .collect();
-        let part = Matrix::from_fn(columns.len(), self.kernel.ncols(), |r, c| {
-            self.kernel[(columns[r], c)]
-        });
-        self.rank_of(&part)
+        self.rank_of(&self.kernel.select_rows(&columns))
     }
 
     /// Returns the rank of the rows of some contours and couplings.
@@ -106,10 +103,7 @@ impl<'a> Measured<'a> {
         let rows: Vec<usize> = of_contours
             .chain(couplings.iter().map(|q| first + q))
             .collect();
-        let part = Matrix::from_fn(rows.len(), self.matrix.ncols(), |r, c| {
-            self.matrix[(rows[r], c)]
-        });
-        self.rank_of(&part)
+        self.rank_of(&self.matrix.select_rows(&rows))
     }
 
     /// Returns the rank of the rows of all couplings and of contours j less a multiple of contour i. These rows are the

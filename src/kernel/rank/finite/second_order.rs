@@ -28,9 +28,9 @@ use crate::model::rounded::Uncertainties;
 use crate::motion::pose::Pose;
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
 use crate::rank::finite::mobility::{Finite, How, dimension};
-use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, directions, norm, sparse, works};
+use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, directions, sparse, works};
 use crate::rank::rounded::size;
-use ozols_dense::{Matrix, Svd, svd};
+use ozols_dense::{Matrix, Svd, dot, svd};
 
 /// Step of finite differences, in radians and fractions of the size.
 const STEP: f64 = 1e-5;
@@ -134,14 +134,13 @@ impl SecondOrder {
         let table_at = |there: &Pose| {
             let mut change = there.jacobian(&vec![0.0; f]);
             change.add_multiple(-1.0, &here);
-            let transposed = Matrix::from_fn(f, change.nrows(), |r, c| change[(c, r)]);
             let mut flat = Flat {
                 kernel: flat.kernel.clone(),
                 stresses: flat.stresses.clone(),
                 clear: true,
             };
             let motion = factors.least_norm(rank, &change.times(&flat.kernel));
-            let stress = turned.least_norm(rank, &transposed.times(&flat.stresses));
+            let stress = turned.least_norm(rank, &change.transpose_times(&flat.stresses));
             flat.kernel.add_multiple(-1.0, &motion);
             flat.stresses.add_multiple(-1.0, &stress);
             (works(there, &flat), change)
@@ -175,7 +174,7 @@ impl SecondOrder {
                     up.add_multiple(-1.0, &down);
                     up_by.add_multiple(-1.0, &down_by);
                     let part = off / (2.0 * step);
-                    moved += (part * size_of(&up_by)).powi(2);
+                    moved += (part * up_by.norm()).powi(2);
                     changes.push(Matrix::from_fn(up.nrows(), up.ncols(), |r, c| {
                         part * up[(r, c)]
                     }));
@@ -216,7 +215,7 @@ impl SecondOrder {
     fn change(&self, stress: &[f64]) -> f64 {
         let one = |change: &Matrix| {
             let row = change.transpose_times(&Matrix::column(stress));
-            size_of(&tangent_cone::form(row.col(0), self.motions))
+            tangent_cone::form(row.col(0), self.motions).norm()
         };
         self.changes.iter().map(one).sum()
     }
@@ -229,19 +228,12 @@ impl SecondOrder {
         (0..factors.values.len()).all(|k| {
             let (u, v) = (factors.u.col(k), factors.v.col(k));
             let one = |change: &Matrix| -> f64 {
-                let row = change.transpose_times(&Matrix::column(u));
-                row.col(0).iter().zip(v).map(|(a, b)| a * b).sum()
+                dot(change.transpose_times(&Matrix::column(u)).col(0), v)
             };
             let squares: f64 = self.changes.iter().map(|c| one(c).powi(2) / 3.0).sum();
             factors.values[k] <= ZERO.max(RARE * squares.sqrt())
         })
     }
-}
-
-/// Returns the Frobenius norm.
-fn size_of(matrix: &Matrix) -> f64 {
-    let columns = (0..matrix.ncols()).map(|c| norm(matrix.col(c)).powi(2));
-    columns.sum::<f64>().sqrt()
 }
 
 /// Returns the mobility at a pose where not every first-order motion is finite, or `None` if this test does not decide.

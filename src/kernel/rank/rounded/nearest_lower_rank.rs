@@ -13,7 +13,7 @@ use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use crate::model::rounded::Uncertainties;
 use crate::rank::numeric::scaling::{Scaling, scaled};
 use crate::rank::rounded::size;
-use ozols_dense::{Matrix, svd, thin_svd};
+use ozols_dense::{Matrix, difference, dot, largest, svd, thin_svd};
 
 /// Maximum number of Newton steps.
 const STEPS: usize = 12;
@@ -144,8 +144,7 @@ pub fn nearest(
         let singular = svd(&matrix)?;
         let beyond = singular.values.get(rank).copied().unwrap_or(0.0);
         if beyond <= ZERO * singular.values[0] {
-            let most = by.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-            let square: f64 = by.iter().map(|x| x * x).sum();
+            let (most, square) = (largest(&by), dot(&by, &by));
             let likely = most <= MOST && square <= largest_square(conditions);
             return likely.then_some(Nearest {
                 mechanism: found,
@@ -158,9 +157,7 @@ pub fn nearest(
         let change = changes(&found, &closure, &of, &by, &left, &right)?;
         let (step, felt) = least(&change, &residue)?;
         conditions = conditions.max(felt);
-        for (x, d) in by.iter_mut().zip(step) {
-            *x -= d;
-        }
+        by = difference(&by, &step);
         // The solution is already too far off: no step leads back within a unit.
         if by.iter().any(|x| !x.is_finite() || x.abs() > 10.0 * MOST) {
             return None;

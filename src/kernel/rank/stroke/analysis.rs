@@ -327,9 +327,9 @@ impl<'a> Looker<'a> {
             .filter(|c| *c != self.request.drive && !self.request.held.contains(c))
             .collect();
         let whole = pose.jacobian_with(&paths, &[]);
-        let part = |rows: usize| Matrix::from_fn(rows, free.len(), |r, c| whole[(r, free[c])]);
-        let rank = |rows| rank_of_values(values(&part(rows)), self.tolerance).rank;
-        rank(whole.nrows()) - rank(pose.rows())
+        let rank =
+            |all: &Matrix| rank_of_values(values(&all.select_columns(&free)), self.tolerance).rank;
+        rank(&whole) - rank(&pose.jacobian(&vec![0.0; f]))
     }
 }
 

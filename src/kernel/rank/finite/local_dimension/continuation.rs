@@ -18,8 +18,8 @@ use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::{DimensionSearch, along, norm};
-use ozols_dense::{Matrix, svd};
+use crate::rank::finite::local_dimension::DimensionSearch;
+use ozols_dense::{Matrix, add_scaled, difference, dot, largest, norm, svd};
 
 /// Distance that a motion must cover, by the coordinate that moves most from step to step: radians, or fractions of the
 /// size.
@@ -36,10 +36,6 @@ const APART: f64 = 0.3;
 /// Number of directions tried from a pose before it counts as isolated.
 const TRIES: usize = 3;
 
-fn largest(q: &[f64]) -> f64 {
-    q.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
-}
-
 impl DimensionSearch {
     /// Returns whether a motion in a random direction of some orthonormal columns, all being motions, continues. With
     /// `apart`, returns whether [all of them do](Self::lead_apart). Returns `None` if the budget is spent.
@@ -50,7 +46,7 @@ impl DimensionSearch {
         }
         let here = vec![0.0; span.nrows()];
         for _ in 0..TRIES {
-            let direction = along(span, &self.direction(n));
+            let direction = span.combined(&self.direction(n));
             if self.goes_on(pose, &here, &direction, n)? {
                 return Some(true);
             }
@@ -66,7 +62,7 @@ impl DimensionSearch {
         let here = vec![0.0; span.nrows()];
         let mut ends: Vec<Vec<f64>> = Vec::new();
         for _ in 0..TRIES * n {
-            let direction = along(span, &self.direction(n));
+            let direction = span.combined(&self.direction(n));
             let Some(end) = self.end_of(pose, &here, &direction, n)? else {
                 continue;
             };
@@ -111,22 +107,14 @@ impl DimensionSearch {
                 return Some(None);
             };
             let next = loop {
-                let guess: Vec<f64> = q.iter().zip(&tangent).map(|(q, t)| q + step * t).collect();
+                let guess = add_scaled(&q, step, &tangent);
                 // This equation only fixes the step along the tangent. Everything else is corrected as little as
                 // possible.
                 let size = norm(&tangent);
                 let row: Vec<f64> = tangent.iter().map(|t| t / size).collect();
-                let beside = |x: &[f64]| {
-                    let ahead: f64 = x
-                        .iter()
-                        .zip(&guess)
-                        .zip(&row)
-                        .map(|((x, g), t)| (x - g) * t)
-                        .sum();
-                    vec![(ahead, row.clone())]
-                };
+                let beside = |x: &[f64]| vec![(dot(&difference(x, &guess), &row), row.clone())];
                 let (closed, gap) = self.close(pose, guess.clone(), &beside)?;
-                let corrected: Vec<f64> = closed.iter().zip(&guess).map(|(a, b)| a - b).collect();
+                let corrected = difference(&closed, &guess);
                 if gap <= pose.closed() && largest(&corrected) <= CORRECTION * step {
                     break closed;
                 }
@@ -135,7 +123,7 @@ impl DimensionSearch {
                     return Some(None);
                 }
             };
-            onward = next.iter().zip(&q).map(|(a, b)| a - b).collect();
+            onward = difference(&next, &q);
             way += step;
             step = (1.5 * step).min(LONGEST);
             q = next;
@@ -155,15 +143,9 @@ fn tangent(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f
         return None;
     }
     let weights: Vec<f64> = (0..kernel.ncols())
-        .map(|c| {
-            onward
-                .iter()
-                .enumerate()
-                .map(|(r, x)| kernel[(r, c)] * x)
-                .sum()
-        })
+        .map(|c| dot(kernel.col(c), onward))
         .collect();
-    let tangent = along(&kernel, &weights);
+    let tangent = kernel.combined(&weights);
     let size = largest(&tangent);
     (norm(&weights) > 0.0 && size > 0.0).then(|| tangent.iter().map(|t| t / size).collect())
 }
