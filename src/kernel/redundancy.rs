@@ -19,10 +19,9 @@ pub mod stress;
 pub mod stress_loads;
 pub mod stressed;
 
-use crate::closure::Closure;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::exact::field::field_of;
+use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::NumericError;
@@ -95,8 +94,7 @@ pub struct StateFigures {
 /// # Errors
 /// Returns an error if the geometry has no exact image.
 pub fn figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
-    let exact = field_of(mechanism, state, 0)?;
-    let closure = Closure::new(&exact, mechanism, state)?;
+    let (exact, closure) = closure_of(mechanism, state, 0)?;
     let rank = modular::rank(&exact, &closure);
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     Ok(StateFigures {

@@ -1,7 +1,7 @@
 //! The self-stresses of a mechanism, part by part: the constraints they load, and the releases that remove them.
 
+use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
-use crate::closure::{Closure, Part};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::perpendicular;
@@ -56,7 +56,7 @@ impl<'a> Stressed<'a> {
         rank: usize,
     ) -> Result<Option<Vec<Self>>, ExactError> {
         let whole = Closure::new(&Reals, m, state)?;
-        let parts: Vec<Part<f64>> = parts(&whole).iter().map(|p| whole.part(p)).collect();
+        let parts = whole.parts(&parts(&whole));
         let found: Option<Vec<Svd>> = parts.iter().map(|p| svd(&scaled(&p.closure))).collect();
         let Some(found) = found else {
             return Ok(None);

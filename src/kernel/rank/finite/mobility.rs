@@ -267,53 +267,72 @@ impl Finite {
         use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
         let from = self.mobility + other.mobility;
         let to = self.at_most() + other.at_most();
-        let how = match (self.how, other.how) {
-            (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded { to },
-            (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided { from, to },
-            (Rigid, how) | (how, Rigid) => how,
+        // The one that leaves more open decides.
+        let openness = |f: &Finite| match f.how {
+            Rigid => 0,
+            Submersion { .. } => 1,
+            Stopped { .. } => 2,
+            Singular { .. } => 3,
+            Traced { .. } => 4,
+            Bound { .. } => 5,
+            Undecided { .. } => 6,
+            Rounded { .. } => 7,
+        };
+        let (open, clear) = if openness(&self) < openness(&other) {
+            (other.how, self.how)
+        } else {
+            (self.how, other.how)
+        };
+        let how = match (open, clear) {
+            (Rounded { .. }, _) => Rounded { to },
+            (Undecided { .. }, _) => Undecided { from, to },
+            (how, Rigid) => how,
+            (Bound { .. }, _) => Bound { to },
             (
-                Submersion { dimension, by },
                 Submersion {
-                    dimension: more,
-                    by: too,
+                    dimension: a,
+                    by: x,
                 },
-            ) => Submersion {
-                dimension: dimension + more,
-                by: by.max(too),
-            },
-            (Bound { .. }, _) | (_, Bound { .. }) => Bound { to },
+                Submersion {
+                    dimension: b,
+                    by: y,
+                },
+            ) => {
+                let (dimension, by) = (a + b, x.max(y));
+                Submersion { dimension, by }
+            }
             (
-                Traced { poses, regular },
                 Traced {
-                    poses: more,
-                    regular: too,
+                    poses: a,
+                    regular: x,
                 },
-            ) => Traced {
-                poses: poses + more,
-                regular: regular && too,
-            },
-            (Traced { poses, .. }, Stopped { .. } | Singular { .. })
-            | (Stopped { .. } | Singular { .. }, Traced { poses, .. }) => Traced {
-                poses,
-                regular: false,
-            },
-            (Singular { order }, Singular { order: other }) => Singular {
-                order: order.max(other),
-            },
-            (how @ Singular { .. }, Submersion { .. } | Stopped { .. })
-            | (Submersion { .. } | Stopped { .. }, how @ Singular { .. }) => how,
-            (how @ (Traced { .. } | Stopped { .. }), Submersion { .. })
-            | (Submersion { .. }, how @ (Traced { .. } | Stopped { .. })) => how,
+                Traced {
+                    poses: b,
+                    regular: y,
+                },
+            ) => {
+                let (poses, regular) = (a + b, x && y);
+                Traced { poses, regular }
+            }
+            (Traced { poses, .. }, Stopped { .. } | Singular { .. }) => {
+                let regular = false;
+                Traced { poses, regular }
+            }
+            (Singular { order: a }, Singular { order: b }) => Singular { order: a.max(b) },
             (
-                Stopped { order, motions },
                 Stopped {
-                    order: other,
-                    motions: more,
+                    order: a,
+                    motions: x,
                 },
-            ) => Stopped {
-                order: order.max(other),
-                motions: motions + more,
-            },
+                Stopped {
+                    order: b,
+                    motions: y,
+                },
+            ) => {
+                let (order, motions) = (a.max(b), x + y);
+                Stopped { order, motions }
+            }
+            (how, _) => how,
         };
         Finite {
             mobility: from,

@@ -17,19 +17,19 @@
 //! subspace (`higher_order`).
 
 use crate::closure::Closure;
-use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::geom::vector::{length, real};
 use crate::linalg::echelon::{combination, relations};
 use crate::linalg::modp::{Field, Residue};
-use crate::model::mechanism::{JointId, Mechanism, Mode};
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::rounded::Uncertainties;
 use crate::motion::pose::Pose;
 use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
 use crate::rank::finite::mobility::{Finite, How, dimension};
 use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, directions, sparse, works};
-use crate::rank::rounded::size;
+use crate::rank::rounded::{Coordinate, coordinates, frame_with, size};
+use itertools::Itertools;
 use ozols_dense::{Matrix, Svd, dot, svd};
 
 /// Step of finite differences, in radians and fractions of the size.
@@ -66,22 +66,16 @@ impl Roundings {
         }
     }
 
-    /// Returns how far each component of the point, the axis and the reference of a joint may be off, if it matters.
-    fn of(&self, mechanism: &Mechanism, j: JointId) -> [[f64; 3]; 3] {
-        let (at, joint_type) = (j.index(), &mechanism.joints[j].joint_type);
-        // In a plane, axes stay perpendicular to it.
-        let turned = matches!(mechanism.mode, Mode::Spatial);
-        let off = |half: [f64; 3], matters: bool| {
-            half.map(|h| if matters { self.times * h } else { 0.0 })
+    /// Returns the coordinates of some joints that may be off and matter.
+    fn coordinates(&self, mechanism: &Mechanism, joints: &[JointId]) -> Vec<Coordinate> {
+        let matters = |c: &Coordinate| match c.vector {
+            0 => true,
+            1 => mechanism.joints[c.joint].joint_type.is_directed(),
+            _ => mechanism.joints[c.joint].joint_type.has_second_axis(),
         };
-        [
-            off(self.half.point[at], true),
-            off(self.half.axis[at], turned && joint_type.is_directed()),
-            off(
-                self.half.reference[at],
-                turned && joint_type.has_second_axis(),
-            ),
-        ]
+        let mut all = coordinates(mechanism, joints.iter().copied(), &self.half);
+        all.retain(matters);
+        all
     }
 }
 
@@ -108,11 +102,7 @@ impl SecondOrder {
     ) -> Option<SecondOrder> {
         let f = pose.columns.len();
         let here = pose.jacobian(&vec![0.0; f]);
-        let joints: Vec<JointId> = {
-            let mut of: Vec<JointId> = pose.columns.iter().map(|c| c.joint).collect();
-            of.dedup();
-            of
-        };
+        let joints: Vec<JointId> = pose.columns.iter().map(|c| c.joint).dedup().collect();
         let matrices = 18 * joints.len() * motions * (motions + 1);
         if matrices * pose.rows() * f > LARGEST {
             return None;
@@ -147,39 +137,20 @@ impl SecondOrder {
         };
         let space = MotionSpace::new(&Reals, &mechanism.mode).ok()?;
         let (mut changes, mut moved) = (Vec::new(), 0.0);
-        for j in joints {
-            let joint = &mechanism.joints[j];
-            let vectors = [
-                &joint.frame.point,
-                &joint.frame.axis,
-                &joint.frame.reference,
-            ]
-            .map(real);
-            let pitch = joint.frame.pitch.to_f64();
-            for (v, off) in known.of(mechanism, j).into_iter().enumerate() {
-                let scale = if v == 0 {
-                    pose.length
-                } else {
-                    length(vectors[v])
-                };
-                for (c, off) in off.into_iter().enumerate().filter(|(_, off)| *off > 0.0) {
-                    let at = |by: f64| {
-                        let mut vectors = vectors;
-                        vectors[v][c] += by;
-                        let frame = FrameValues::of(&Reals, vectors, pitch);
-                        table_at(&pose.reframed(mechanism, &space, j, &frame))
-                    };
-                    let step = STEP * scale;
-                    let ((mut up, mut up_by), (down, down_by)) = (at(step), at(-step));
-                    up.add_multiple(-1.0, &down);
-                    up_by.add_multiple(-1.0, &down_by);
-                    let part = off / (2.0 * step);
-                    moved += (part * up_by.norm()).powi(2);
-                    changes.push(Matrix::from_fn(up.nrows(), up.ncols(), |r, c| {
-                        part * up[(r, c)]
-                    }));
-                }
-            }
+        for c in known.coordinates(mechanism, &joints) {
+            let at = |by: f64| {
+                let frame = frame_with(mechanism, &c, c.written + by);
+                table_at(&pose.reframed(mechanism, &space, c.joint, &frame))
+            };
+            let step = STEP * c.scale;
+            let ((mut up, mut up_by), (down, down_by)) = (at(step), at(-step));
+            up.add_multiple(-1.0, &down);
+            up_by.add_multiple(-1.0, &down_by);
+            let part = known.times * c.half / (2.0 * step);
+            moved += (part * up_by.norm()).powi(2);
+            changes.push(Matrix::from_fn(up.nrows(), up.ncols(), |r, c| {
+                part * up[(r, c)]
+            }));
         }
         if moved.sqrt() > SMALL * least {
             return None;
