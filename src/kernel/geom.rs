@@ -8,10 +8,9 @@ pub mod number_field;
 pub mod rigid;
 pub mod vector;
 
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::radical::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::extent::Extent;
-use crate::linalg::modp::Residue;
 use std::fmt::Debug;
 
 /// A commutative ring in which expressions can be evaluated. Division is deliberately missing, because joint frames do
@@ -76,26 +75,6 @@ pub trait Scalars: Sync {
         let [b0, b1, b2] = b;
         let [a0, a1, a2] = a.map(|x| self.mul(s.clone(), x));
         [self.add(a0, b0), self.add(a1, b1), self.add(a2, b2)]
-    }
-}
-
-impl Scalars for ExactField {
-    type Number = Residue;
-
-    fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
-        ExactField::eval(self, expr)
-    }
-    #[inline]
-    fn add(&self, a: Residue, b: Residue) -> Residue {
-        self.field().add(a, b)
-    }
-    #[inline]
-    fn sub(&self, a: Residue, b: Residue) -> Residue {
-        self.field().sub(a, b)
-    }
-    #[inline]
-    fn mul(&self, a: Residue, b: Residue) -> Residue {
-        self.field().mul(a, b)
     }
 }
 

@@ -10,7 +10,6 @@
 //!
 //! Whether relations hold exactly is tested modulo a prime. A relation that holds only by rounding fails this test.
 
-mod consensus;
 mod directions;
 mod exact_directions;
 mod frame;

@@ -4,14 +4,10 @@
 
 pub mod analysis;
 pub mod contour_shares;
-pub mod drives;
 pub mod duplicate_constraints;
 pub(crate) mod external;
-pub mod idle_animation;
-mod joint_wrench;
 pub mod link_motion;
 pub mod local_mobility;
-pub mod measured;
 pub mod motion;
 pub mod other_poses;
 pub mod release;

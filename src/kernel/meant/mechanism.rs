@@ -3,7 +3,7 @@
 use super::MeantScene;
 use super::number::{Rational3, is_same};
 use super::resolve::{Resolved, resolve};
-use super::written::{Ray, WrittenPoint, WrittenScene, WrittenSymmetry};
+use super::written::{Written, WrittenScene, WrittenSymmetry};
 use crate::closure::contour::contour_basis;
 use crate::geom::expr::Expr;
 use crate::geom::vector::{cross, dot, length, real, sub, unit};
@@ -54,21 +54,13 @@ struct Gathered {
 impl Gathered {
     fn point(&mut self, v: &[Expr; 3], half: [f64; 3], of: JointId) -> usize {
         self.points.push(of);
-        self.written.points.push(WrittenPoint {
-            value: real(v),
-            exact: rational(v),
-            half,
-        });
+        self.written.points.push(written(v, half));
         self.points.len() - 1
     }
 
     fn ray(&mut self, v: &[Expr; 3], half: [f64; 3], of: Option<JointId>) -> usize {
         self.rays.push(of);
-        self.written.rays.push(Ray {
-            value: real(v),
-            exact: rational(v),
-            half,
-        });
+        self.written.rays.push(written(v, half));
         self.rays.len() - 1
     }
 
@@ -155,6 +147,14 @@ impl Uses {
             axis: self.axis || other.axis,
             reference: self.reference || other.reference,
         }
+    }
+}
+
+fn written(v: &[Expr; 3], half: [f64; 3]) -> Written {
+    Written {
+        value: real(v),
+        exact: rational(v),
+        half,
     }
 }
 

@@ -153,8 +153,8 @@ pub(crate) fn product(f: Field, a: &Term, b: &Term) -> Term {
 /// Adds a multiple of a matrix.
 fn accumulate(f: Field, sum: &mut Term, more: &Term, by: Residue) {
     if by != 0 {
-        let entries = sum.iter_mut().flatten().zip(more.iter().flatten());
-        entries.for_each(|(s, &x)| *s = f.add(*s, f.mul(by, x)));
+        let (sum, more) = (sum.as_flattened_mut(), more.as_flattened());
+        f.add_multiple(sum, by, more);
     }
 }
 

@@ -1,7 +1,6 @@
 //! Rank in floating point: from pivots or QR factors of the original J, or from singular values of J scaled so that
 //! units do not matter.
 
-pub(in crate::rank) mod rounding_bound;
 pub mod scaling;
 pub(in crate::rank) mod values;
 

@@ -28,7 +28,7 @@ use crate::model::mechanism::Mechanism;
 use crate::motion::displacement_series::{self, Series, hat};
 use crate::motion::pose::Pose;
 use crate::rank::finite::higher_order::line::Solved;
-use crate::rank::finite::power_series::{Monomials, accumulate};
+use crate::rank::finite::power_series::Monomials;
 
 /// Number of entries of J² up to which series are used.
 const LARGEST: usize = 40_000;
@@ -360,7 +360,7 @@ fn exp(f: Field, twist: &[Residue], angle: &Series, monomials: &Monomials) -> Se
     let (mut matrix, mut power) = (hat, angle.clone());
     for n in 2.. {
         let entries = out.iter_mut().flatten().zip(matrix.iter().flatten());
-        entries.for_each(|(entry, &by)| accumulate(f, entry, &power, by));
+        entries.for_each(|(entry, &by)| f.add_multiple(entry, by, &power));
         matrix = displacement_series::product(f, &matrix, &hat);
         if n > monomials.degree() || matrix == [[0; 4]; 3] {
             break;
@@ -382,7 +382,7 @@ fn product(f: Field, a: &SeriesMotion, b: &SeriesMotion, monomials: &Monomials) 
         };
         (0..3).fold(shift, |mut sum, k| {
             let more = monomials.product(f, &a[i][k], &b[k][j]);
-            accumulate(f, &mut sum, &more, f.one());
+            f.add_multiple(&mut sum, f.one(), &more);
             sum
         })
     };

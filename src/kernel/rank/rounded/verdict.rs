@@ -13,9 +13,8 @@ use crate::model::rounded::{Rounded, Uncertainties, looks_rounded, uncertainties
 use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
-use crate::rank::numeric::rounding_bound::bound;
 use crate::rank::numeric::scaling::NumericRank;
-use crate::rank::numeric::values::{ROUND_OFF, Values, relative_values};
+use crate::rank::numeric::values::{ROUND_OFF, Values, bound, relative_values};
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
 use crate::rank::rounded::size;
