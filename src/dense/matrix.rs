@@ -118,6 +118,46 @@ impl Matrix {
         Matrix::of((self.view().transpose() * other.view()).as_ref())
     }
 
+    /// Returns the sum of the columns times these weights.
+    ///
+    /// # Panics
+    /// Panics if there are more weights than columns.
+    #[must_use]
+    pub fn combined(&self, weights: &[f64]) -> Vec<f64> {
+        let entry = |r: usize| {
+            weights
+                .iter()
+                .enumerate()
+                .map(|(c, w)| self[(r, c)] * w)
+                .sum()
+        };
+        (0..self.rows).map(entry).collect()
+    }
+
+    /// Returns a row.
+    #[must_use]
+    pub fn row(&self, row: usize) -> Vec<f64> {
+        (0..self.columns).map(|c| self[(row, c)]).collect()
+    }
+
+    /// Returns some rows.
+    #[must_use]
+    pub fn select_rows(&self, rows: &[usize]) -> Matrix {
+        Matrix::from_fn(rows.len(), self.columns, |r, c| self[(rows[r], c)])
+    }
+
+    /// Returns some columns.
+    #[must_use]
+    pub fn select_columns(&self, columns: &[usize]) -> Matrix {
+        Matrix::from_fn(self.rows, columns.len(), |r, c| self[(r, columns[c])])
+    }
+
+    /// Returns the length of all entries as one list, the Frobenius norm.
+    #[must_use]
+    pub fn norm(&self) -> f64 {
+        norm(&self.entries)
+    }
+
     /// Adds a multiple of another matrix of the same shape.
     ///
     /// # Panics
@@ -136,6 +176,36 @@ impl Matrix {
     pub(crate) fn of(matrix: MatRef<'_, f64>) -> Matrix {
         Matrix::from_fn(matrix.nrows(), matrix.ncols(), |r, c| matrix[(r, c)])
     }
+}
+
+/// Returns the scalar product of two lists.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Returns the length of a list as a vector.
+#[must_use]
+pub fn norm(a: &[f64]) -> f64 {
+    a.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Returns the largest absolute entry, or 0 if there are none.
+#[must_use]
+pub fn largest(a: &[f64]) -> f64 {
+    a.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+/// Returns `a + s·b` of two lists.
+#[must_use]
+pub fn add_scaled(a: &[f64], s: f64, b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + s * b).collect()
+}
+
+/// Returns `a - b` of two lists.
+#[must_use]
+pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 impl Index<(usize, usize)> for Matrix {

@@ -6,10 +6,8 @@
 pub mod contour;
 pub mod coupling;
 pub(crate) mod drive;
-pub mod mirror;
-pub(crate) mod symmetry_image;
+pub mod isometry;
 pub mod tree;
-pub(crate) mod turn;
 pub mod twist;
 
 use crate::closure::contour::{Contour, contour_basis};
@@ -22,6 +20,7 @@ use crate::geom::expr::Expr;
 use crate::geom::extent::Extent;
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use std::collections::HashMap;
 
 /// One column of J: a freedom of a joint.
 #[derive(Debug, Clone)]
@@ -128,44 +127,54 @@ impl<N: Clone + Default + PartialEq> Closure<N> {
         })
     }
 
-    /// Returns J of some joints, ascending, that share contours and couplings with no others.
+    /// Returns J of each of some sets of joints, which share contours and couplings with no others.
     ///
     /// # Complexity
     /// One pass over J.
     #[must_use]
-    pub fn part(&self, joints: &[JointId]) -> Part<N> {
-        let has = |j: JointId| joints.binary_search(&j).is_ok();
-        let columns: Vec<usize> = (0..self.columns.len())
-            .filter(|&c| has(self.columns[c].joint))
-            .collect();
-        let contours: Vec<usize> = (0..self.contours.len())
-            .filter(|&k| self.contours[k].joints.iter().any(|&(j, _)| has(j)))
-            .collect();
-        let couplings: Vec<usize> = (0..self.couplings.len())
-            .filter(|&q| {
-                columns
-                    .binary_search(&self.couplings[q].entries[0].0)
-                    .is_ok()
-            })
-            .collect();
-        let place = |c: usize| columns.partition_point(|&own| own < c);
-        let coupling = |&q: &usize| CouplingRow {
-            entries: (self.couplings[q].entries.clone()).map(|(c, x)| (place(c), x)),
-        };
-        Part {
-            joints: joints.to_vec(),
+    pub fn parts(&self, sets: &[Vec<JointId>]) -> Vec<Part<N>> {
+        let part = |joints: &Vec<JointId>| Part {
+            joints: joints.clone(),
             closure: Closure {
                 state: self.state,
                 dim: self.dim,
-                contours: contours.iter().map(|&k| self.contours[k].clone()).collect(),
-                columns: columns.iter().map(|&c| self.columns[c].clone()).collect(),
-                couplings: couplings.iter().map(coupling).collect(),
+                contours: Vec::new(),
+                columns: Vec::new(),
+                couplings: Vec::new(),
                 extent: self.extent,
                 left_out: Vec::new(),
             },
-            contours,
-            couplings,
+            contours: Vec::new(),
+            couplings: Vec::new(),
+        };
+        let mut out: Vec<Part<N>> = sets.iter().map(part).collect();
+        let numbered = sets.iter().enumerate();
+        let of: HashMap<JointId, usize> = numbered
+            .flat_map(|(i, joints)| joints.iter().map(move |&j| (j, i)))
+            .collect();
+        for (k, contour) in self.contours.iter().enumerate() {
+            let first = contour.joints.first();
+            if let Some(&i) = first.and_then(|(j, _)| of.get(j)) {
+                out[i].contours.push(k);
+                out[i].closure.contours.push(contour.clone());
+            }
         }
+        let mut place = vec![0; self.columns.len()];
+        for (c, column) in self.columns.iter().enumerate() {
+            if let Some(&i) = of.get(&column.joint) {
+                place[c] = out[i].closure.columns.len();
+                out[i].closure.columns.push(column.clone());
+            }
+        }
+        for (q, coupling) in self.couplings.iter().enumerate() {
+            let at = self.columns[coupling.entries[0].0].joint;
+            if let Some(&i) = of.get(&at) {
+                let entries = coupling.entries.clone().map(|(c, x)| (place[c], x));
+                out[i].couplings.push(q);
+                out[i].closure.couplings.push(CouplingRow { entries });
+            }
+        }
+        out
     }
 
     /// Returns the number of rows, 6k + c for c couplings (3k + c in a plane).

@@ -50,33 +50,23 @@ pub fn list<T: AsRef<str>>(of: &[T]) -> String {
     }
 }
 
-/// Style of a number of any size.
-struct Style {
-    /// Significant digits.
-    digits: i32,
-    /// Powers of ten of the first digit that are written without an exponent.
-    plain: Range<i32>,
-    /// Whether trailing zeros are kept.
-    padded: bool,
-}
-
-impl Style {
-    fn write(&self, x: f64) -> String {
-        if x == 0.0 {
-            return "0".to_owned();
+/// Formats a number of any size with these significant digits. Those whose first digit has one of the `plain` powers of
+/// ten have no exponent. Trailing zeros are kept if the number is `padded`.
+fn styled(x: f64, digits: i32, plain: Range<i32>, padded: bool) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let text = format!("{x:.0$e}", digits.max(1) as usize - 1);
+    let Some((mantissa, power)) = text.split_once('e') else {
+        return text;
+    };
+    let trim = |text| if padded { text } else { trimmed(text) };
+    match power.parse() {
+        Ok(power) if plain.contains(&power) => {
+            let decimals = (digits - 1 - power).max(0) as usize;
+            trim(&format!("{x:.decimals$}")).to_owned()
         }
-        let text = format!("{x:.0$e}", self.digits.max(1) as usize - 1);
-        let Some((mantissa, power)) = text.split_once('e') else {
-            return text;
-        };
-        let trim = |text| if self.padded { text } else { trimmed(text) };
-        match power.parse() {
-            Ok(power) if self.plain.contains(&power) => {
-                let decimals = (self.digits - 1 - power).max(0) as usize;
-                trim(&format!("{x:.decimals$}")).to_owned()
-            }
-            _ => format!("{}e{power}", trim(mantissa)),
-        }
+        _ => format!("{}e{power}", trim(mantissa)),
     }
 }
 
@@ -91,12 +81,7 @@ fn trimmed(text: &str) -> &str {
 
 /// Formats a measured number to four significant digits: 12.35, 0.001235, 1.235e-7. Rounding noise is written as 0.
 pub fn significant(x: f64) -> String {
-    let style = Style {
-        digits: 4,
-        plain: -4..7,
-        padded: false,
-    };
-    style.write(if x.abs() < 1e-9 { 0.0 } else { x })
+    styled(if x.abs() < 1e-9 { 0.0 } else { x }, 4, -4..7, false)
 }
 
 /// Formats a value of a column with five significant figures, or a dash if there is none.
@@ -104,52 +89,27 @@ pub fn figure(x: f64) -> String {
     if !x.is_finite() {
         return "-".to_owned();
     }
-    let style = Style {
-        digits: 5,
-        plain: -4..7,
-        padded: true,
-    };
-    style.write(x)
+    styled(x, 5, -4..7, true)
 }
 
 /// Formats a number mentioned briefly, with three figures.
 pub fn brief(x: f64) -> String {
-    let style = Style {
-        digits: 3,
-        plain: -3..6,
-        padded: true,
-    };
-    style.write(x)
+    styled(x, 3, -3..6, true)
 }
 
 /// Formats a power of ten or a short decimal, with a true minus: 1e−9, 3.2e−10, 1.
 pub fn scientific(x: f64) -> String {
-    let style = Style {
-        digits: 2,
-        plain: -2..4,
-        padded: false,
-    };
-    minus(&style.write(x))
+    minus(&styled(x, 2, -2..4, false))
 }
 
 /// Formats a value to six digits, with a true minus.
 pub fn tooltip(x: f64) -> String {
-    let style = Style {
-        digits: 6,
-        plain: -4..6,
-        padded: false,
-    };
-    minus(&style.write(x))
+    minus(&styled(x, 6, -4..6, false))
 }
 
 /// Rounds a figure to `digits` digits, for files whose bytes must not depend on the last bits.
 pub fn rounded(x: f64, digits: i32) -> f64 {
-    let style = Style {
-        digits,
-        plain: -4..6,
-        padded: false,
-    };
-    style.write(x).parse().unwrap_or(x)
+    styled(x, digits, -4..6, false).parse().unwrap_or(x)
 }
 
 /// Formats a number with at most `most` decimals, without trailing zeros and without a negative zero.

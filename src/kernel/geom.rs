@@ -2,17 +2,15 @@
 //! field. A mechanism is evaluated in one of two number systems: residues modulo a prime (exact) or `f64` (measured).
 
 pub mod exact;
-pub(crate) mod exact_vector;
 pub mod expr;
 pub mod extent;
 pub mod number_field;
 pub mod rigid;
 pub mod vector;
 
-use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::exact::radical::ExactError;
 use crate::geom::expr::Expr;
 use crate::geom::extent::Extent;
-use crate::linalg::modp::Residue;
 use std::fmt::Debug;
 
 /// A commutative ring in which expressions can be evaluated. Division is deliberately missing, because joint frames do
@@ -77,26 +75,6 @@ pub trait Scalars: Sync {
         let [b0, b1, b2] = b;
         let [a0, a1, a2] = a.map(|x| self.mul(s.clone(), x));
         [self.add(a0, b0), self.add(a1, b1), self.add(a2, b2)]
-    }
-}
-
-impl Scalars for ExactField {
-    type Number = Residue;
-
-    fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
-        ExactField::eval(self, expr)
-    }
-    #[inline]
-    fn add(&self, a: Residue, b: Residue) -> Residue {
-        self.field().add(a, b)
-    }
-    #[inline]
-    fn sub(&self, a: Residue, b: Residue) -> Residue {
-        self.field().sub(a, b)
-    }
-    #[inline]
-    fn mul(&self, a: Residue, b: Residue) -> Residue {
-        self.field().mul(a, b)
     }
 }
 

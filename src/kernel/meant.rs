@@ -10,7 +10,6 @@
 //!
 //! Whether relations hold exactly is tested modulo a prime. A relation that holds only by rounding fails this test.
 
-mod consensus;
 mod directions;
 mod exact_directions;
 mod frame;
@@ -26,13 +25,11 @@ mod symmetry;
 mod together;
 pub mod written;
 
+use crate::linalg::modp::{Field, Residue};
 use crate::meant::number::Rational3;
 use crate::meant::relations::RelationKind;
 use crate::meant::solve::PointEquation;
-use num_bigint::BigInt;
-use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::ToPrimitive;
 
 /// A recovered scene.
 #[derive(Debug, Clone)]
@@ -51,36 +48,20 @@ pub struct MeantScene {
     pub moved: f64,
 }
 
-/// 2^61 - 1.
-const PRIME: u128 = (1 << 61) - 1;
-
-fn power(mut x: u128, mut n: u128) -> u128 {
-    let mut out = 1;
-    while n > 0 {
-        if n & 1 == 1 {
-            out = out * x % PRIME;
-        }
-        x = x * x % PRIME;
-        n >>= 1;
-    }
-    out
-}
-
-fn image(x: &BigRational) -> u128 {
-    let of = |n: &BigInt| n.mod_floor(&BigInt::from(PRIME)).to_u128().unwrap_or(0);
-    of(x.numer()) * power(of(x.denom()), PRIME - 2) % PRIME
-}
-
 /// Points and normals modulo a prime.
 pub(crate) struct Images {
-    points: Vec<[u128; 3]>,
-    normals: Vec<[u128; 3]>,
+    field: Field,
+    points: Vec<[Residue; 3]>,
+    normals: Vec<[Residue; 3]>,
 }
 
 impl Images {
     pub(crate) fn of(points: &[Rational3], normals: &[Rational3]) -> Images {
+        let field = Field::new((1 << 61) - 1);
+        let image = |x: &BigRational| field.from_rational(x).unwrap_or(0);
         let all = |v: &[Rational3]| v.iter().map(|x| x.each_ref().map(image)).collect();
         Images {
+            field,
             points: all(points),
             normals: all(normals),
         }
@@ -89,12 +70,11 @@ impl Images {
     /// Returns true if a row holds. A row that does not may appear to hold once in 10^18.
     pub(crate) fn holds(&self, row: &PointEquation) -> bool {
         let n = &self.normals[row.normal];
-        let sum = row.terms.iter().fold(0, |sum: u128, &(p, c)| {
-            let by = (0..3).fold(0, |s, k| (s + n[k] * self.points[p][k]) % PRIME);
-            let times = u128::from(c.unsigned_abs()) * by % PRIME;
-            (sum + if c < 0 { PRIME - times } else { times }) % PRIME
-        });
-        sum == 0
+        let along = |&(p, c): &(usize, i32)| {
+            let times = self.field.from_i64(c.into());
+            (times, self.field.dot(n, &self.points[p]))
+        };
+        self.field.sum_of_products(row.terms.iter().map(along)) == 0
     }
 }
 

@@ -4,14 +4,10 @@
 
 pub mod analysis;
 pub mod contour_shares;
-pub mod drives;
 pub mod duplicate_constraints;
 pub(crate) mod external;
-pub mod idle_animation;
-mod joint_wrench;
 pub mod link_motion;
 pub mod local_mobility;
-pub mod measured;
 pub mod motion;
 pub mod other_poses;
 pub mod release;
@@ -19,10 +15,9 @@ pub mod stress;
 pub mod stress_loads;
 pub mod stressed;
 
-use crate::closure::Closure;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
-use crate::rank::exact::field::field_of;
+use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
 use crate::rank::numeric::NumericError;
@@ -95,8 +90,7 @@ pub struct StateFigures {
 /// # Errors
 /// Returns an error if the geometry has no exact image.
 pub fn figures(mechanism: &Mechanism, state: StateId) -> Result<StateFigures, ExactError> {
-    let exact = field_of(mechanism, state, 0)?;
-    let closure = Closure::new(&exact, mechanism, state)?;
+    let (exact, closure) = closure_of(mechanism, state, 0)?;
     let rank = modular::rank(&exact, &closure);
     let joints: Vec<JointId> = mechanism.joints_in(state).collect();
     Ok(StateFigures {

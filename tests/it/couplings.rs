@@ -127,7 +127,7 @@ fn axes_of_any_length_make_the_same_row() {
 /// A rack moves by the pitch radius for each radian of its pinion, over the stroke too.
 #[test]
 fn rack_and_pinion() {
-    use ozols::motion::follow::follow;
+    use ozols::motion::follow::Follower;
     use ozols::motion::pose::Pose;
     let m = mechanism(&pair(TURN, SLIDE, &coupled("a", "b", "12.5")));
     let s = exact(&m);
@@ -137,9 +137,9 @@ fn rack_and_pinion() {
     );
     assert!(s.finite.is_proven());
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let way = follow(&pose, 0, &[], [0.0, 7.0], 7);
-    assert!(way.stop.is_none());
-    let last = way.reached.last().unwrap().pose();
+    let mut follower = Follower::new(pose, 0, &[]);
+    follower.advance(7.0, |_| {}).unwrap();
+    let last = follower.pose();
     assert!((last.columns[0].moved - 7.0).abs() < 1e-12);
     assert!((last.columns[1].moved * last.length - 87.5).abs() < 1e-9);
 }
@@ -185,12 +185,13 @@ fn gears_that_repeat_or_contradict() {
 /// Willis: the sun of an epicyclic gear turns four times as fast as the carrier where the ring has three times its teeth.
 #[test]
 fn the_carrier_follows_the_sun() {
-    use ozols::motion::follow::follow;
+    use ozols::motion::follow::Follower;
     use ozols::motion::pose::Pose;
     let m = built_in("planetary-gear");
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
-    let way = follow(&pose, 0, &[], [0.0, 1.0], 4);
-    let last = way.reached.last().unwrap().pose();
+    let mut follower = Follower::new(pose, 0, &[]);
+    follower.advance(1.0, |_| {}).unwrap();
+    let last = follower.pose();
     let at = |id: &str| {
         let j = m.joint(id).unwrap();
         last.columns.iter().find(|c| c.joint == j).unwrap().moved

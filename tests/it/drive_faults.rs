@@ -1,7 +1,7 @@
 //! What `ozols analyze` says of the drives: which are locked, which work against each other, where the outputs stand still.
 
 use crate::common::*;
-use ozols::redundancy::drives::DriveFault;
+use ozols::redundancy::motion::DriveFault;
 
 /// Returns a loop of hinges about z between as many links as there are points, the first of which is the frame.
 fn ring(points: &[[i64; 2]], driven: &[usize], output: usize) -> String {

@@ -11,7 +11,7 @@ pub mod words;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::ranking::{Ranking, Term};
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::rounded::intended::settle;
+use crate::rank::rounded::verdict::settle;
 pub use crate::score::request::error::RequestError;
 use crate::score::request::prepare::{
     LooksRounded, Prepared, as_in_file, digits, nearest, tell_moved,

@@ -6,15 +6,12 @@ use crate::geom::vector::{across, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::model::rounded::{looks_rounded, uncertainties};
-use crate::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
-use crate::rank::rounded::nearly_special::{nearly_special, reach};
+use crate::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special, reach};
 use crate::rank::rounded::size;
 use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
 const NEARLY: f64 = 1e-4;
-/// Nor told of where doubles alone miss it.
-const DOUBLE: f64 = 1e-12;
 /// Pairs of joints told of.
 const TOLD: usize = 5;
 
@@ -113,24 +110,16 @@ fn nearly(m: &Mechanism) -> Vec<String> {
         length: r.length.max(least.length),
         angle: r.angle.max(least.angle),
     });
-    let told = |x: &&NearJoint| x.turn > DOUBLE || x.shift > DOUBLE * size(m);
-    nearly_special(m, within)
-        .iter()
-        .filter(told)
-        .filter_map(|x| words(m, x))
-        .collect()
+    let all = nearly_special(m, within);
+    all.iter().filter_map(|x| words(m, x)).collect()
 }
 
 /// Describes a pair of joints, such as "LF and LR are 0.002 degrees from coaxial".
 fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
-    let strongest = x
-        .relations
-        .iter()
-        .max_by_key(|(r, of)| (rank(*r), of.is_some()));
+    let strongest = x.relations.iter().max_by_key(|(r, of)| (*r, of.is_some()));
     let (relation, other) = strongest?;
     let (id, far) = (&m.joints[x.joint].id, x.far(m));
     let special = match relation {
-        Relation::Zero => return None,
         Relation::Parallel => "parallel",
         Relation::Square => "square",
         Relation::InPlane => "one plane",
@@ -142,17 +131,4 @@ fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
         Some(j) => format!("{} and {id} are {far} from {special}", m.joints[*j].id),
         None => format!("{id} is {far} from {special} to a global axis"),
     })
-}
-
-/// Returns the priority of a relation: how much it states about two joints.
-fn rank(relation: Relation) -> usize {
-    match relation {
-        Relation::Zero => 0,
-        Relation::InPlane => 1,
-        Relation::Square => 2,
-        Relation::Parallel => 3,
-        Relation::Meeting => 4,
-        Relation::Concentric => 5,
-        Relation::Coaxial => 6,
-    }
 }

@@ -2,7 +2,9 @@
 
 use crate::closure::tree::{forest, tied};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
+use fixedbitset::FixedBitSet;
 use itertools::Itertools;
+use petgraph::algo::dijkstra;
 use petgraph::graph::{EdgeIndex, EdgeReference, NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 use std::cmp::Reverse;
@@ -95,10 +97,7 @@ pub fn closed_walk(mechanism: &Mechanism, joints: &[JointId]) -> Option<Contour>
 /// ```
 #[must_use]
 pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
-    let mut basis = Basis {
-        words: mechanism.joints.len().div_ceil(64),
-        rows: Vec::new(),
-    };
+    let (mut basis, joints) = (Basis::default(), mechanism.joints.len());
     let mut contours = Vec::new();
     // The contours of the free state come first, so that those added by a state are at the end.
     let states: &[StateId] = if state == StateId::FREE {
@@ -117,7 +116,8 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
             .iter()
             .filter(|c| c.iter().all(|j| present.contains(j)));
         for walk in named.filter_map(|c| closed_walk(mechanism, c)) {
-            if basis.insert(&walk.joints.iter().map(|&(j, _)| j).collect_vec()) {
+            let passed = walk.joints.iter().map(|&(j, _)| j).collect_vec();
+            if basis.insert(&passed, joints) {
                 contours.push(walk);
             }
         }
@@ -126,7 +126,7 @@ pub fn contour_basis(mechanism: &Mechanism, state: StateId) -> Vec<Contour> {
             if contours.len() == rank {
                 break;
             }
-            if basis.insert(&cycle) {
+            if basis.insert(&cycle, joints) {
                 contours.extend(closed_walk(mechanism, &cycle));
             }
         }
@@ -279,25 +279,16 @@ struct Tree {
 impl Tree {
     /// Runs Dijkstra's algorithm, O(m log m).
     fn new(graph: &Graph, from: NodeIndex) -> Tree {
-        let mut dist: Vec<Option<u64>> = vec![None; graph.node_count()];
-        let mut settled = Vec::with_capacity(graph.node_count());
-        let mut heap = BinaryHeap::from([Reverse((0, from))]);
-        while let Some(Reverse((d, x))) = heap.pop() {
-            if dist[x.index()].is_some() {
-                continue;
-            }
-            dist[x.index()] = Some(d);
-            settled.push(x);
-            for e in graph.edges(x) {
-                let y = other_end(e, x);
-                if dist[y.index()].is_none() {
-                    heap.push(Reverse((d + e.weight().length, y)));
-                }
-            }
-        }
+        let found = dijkstra(graph, from, None, |e| e.weight().length);
+        let dist: Vec<Option<u64>> = graph
+            .node_indices()
+            .map(|x| found.get(&x).copied())
+            .collect();
+        let settled = graph.node_indices().filter(|x| dist[x.index()].is_some());
+        let settled = settled.sorted_by_key(|x| dist[x.index()]);
         let mut last = vec![None; graph.node_count()];
         let mut first = vec![None; graph.node_count()];
-        for &x in settled.iter().skip(1) {
+        for x in settled.skip(1) {
             let back = graph.edges(x).find(|e| {
                 let before = dist[other_end(*e, x).index()];
                 before.map(|d| d + e.weight().length) == dist[x.index()]
@@ -356,29 +347,22 @@ fn from_first(cycle: &[JointId]) -> Vec<JointId> {
 }
 
 /// Independent sets of joints over the field of two elements.
+#[derive(Default)]
 struct Basis {
-    words: usize,
-    rows: Vec<(usize, Vec<u64>)>,
+    rows: Vec<(usize, FixedBitSet)>,
 }
 
 impl Basis {
-    fn insert(&mut self, cycle: &[JointId]) -> bool {
-        let mut bits = vec![0u64; self.words];
-        for &j in cycle {
-            bits[j.index() / 64] ^= 1 << (j.index() % 64);
-        }
+    fn insert(&mut self, cycle: &[JointId], joints: usize) -> bool {
+        let mut bits = FixedBitSet::with_capacity(joints);
+        cycle.iter().for_each(|j| bits.toggle(j.index()));
         for (pivot, row) in &self.rows {
-            if bits[pivot / 64] >> (pivot % 64) & 1 == 1 {
-                bits.iter_mut().zip(row).for_each(|(b, r)| *b ^= r);
+            if bits.contains(*pivot) {
+                bits.symmetric_difference_with(row);
             }
         }
-        let pivot = bits
-            .iter()
-            .position(|&w| w != 0)
-            .map(|w| w * 64 + bits[w].trailing_zeros() as usize);
-        if let Some(pivot) = pivot {
-            self.rows.push((pivot, bits));
-        }
+        let pivot = bits.minimum();
+        self.rows.extend(pivot.map(|pivot| (pivot, bits)));
         pivot.is_some()
     }
 }

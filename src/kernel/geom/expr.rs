@@ -9,7 +9,6 @@
 
 mod enclosure;
 mod error;
-mod half_unit;
 mod node;
 mod operators;
 mod parse;

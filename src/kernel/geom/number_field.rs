@@ -187,19 +187,8 @@ fn is_square(a: u64, q: u64) -> bool {
 }
 
 impl Target for NumberField {
-    type Number = Element;
-
     fn rational(&self, r: &BigRational) -> Option<Element> {
         Some(Element::rational(r.clone()))
-    }
-    fn sum(&self, a: &Element, b: &Element) -> Element {
-        self.ring.add(a, b)
-    }
-    fn difference(&self, a: &Element, b: &Element) -> Element {
-        self.ring.sub(a, b)
-    }
-    fn product(&self, a: &Element, b: &Element) -> Element {
-        self.ring.mul(a, b)
     }
     fn inverse(&self, a: &Element) -> Option<Element> {
         self.ring.inverse(a)

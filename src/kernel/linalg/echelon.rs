@@ -171,9 +171,7 @@ pub fn relations(field: Field, vectors: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
 pub fn combination(field: Field, vectors: &[Vec<Residue>], factors: &[Residue]) -> Vec<Residue> {
     let mut out = vec![0; vectors.first().map_or(0, Vec::len)];
     for (v, &a) in vectors.iter().zip(factors).filter(|(_, a)| **a != 0) {
-        for (o, &x) in out.iter_mut().zip(v) {
-            *o = field.add(*o, field.mul(a, x));
-        }
+        field.add_multiple(&mut out, a, v);
     }
     out
 }

@@ -157,6 +157,14 @@ impl Field {
         }
     }
 
+    /// Computes `x += a·y`.
+    #[inline]
+    pub fn add_multiple(self, x: &mut [Residue], a: Residue, y: &[Residue]) {
+        for (x, &y) in x.iter_mut().zip(y).filter(|(_, y)| **y != 0) {
+            *x = self.add(*x, self.mul(a, y));
+        }
+    }
+
     /// Computes `x += y` or `x -= y`.
     #[inline]
     pub fn accumulate(self, x: &mut [Residue], y: &[Residue], plus: bool) {

@@ -110,23 +110,13 @@ impl NumberRing {
     /// Returns the sum. O(dimension).
     #[must_use]
     pub fn add(&self, a: &Element, b: &Element) -> Element {
-        let mut out = a.0.clone();
-        out.resize(a.0.len().max(b.0.len()), BigRational::zero());
-        for (x, y) in out.iter_mut().zip(&b.0) {
-            *x += y;
-        }
-        Element::new(out)
+        entrywise(a, b, |x, y| *x += y)
     }
 
     /// Returns the difference. O(dimension).
     #[must_use]
     pub fn sub(&self, a: &Element, b: &Element) -> Element {
-        let mut out = a.0.clone();
-        out.resize(a.0.len().max(b.0.len()), BigRational::zero());
-        for (x, y) in out.iter_mut().zip(&b.0) {
-            *x -= y;
-        }
-        Element::new(out)
+        entrywise(a, b, |x, y| *x -= y)
     }
 
     /// Returns the product of two elements of the ring. At most O(dimension² · generators) operations on rationals; a rational factor
@@ -321,6 +311,13 @@ impl NumberRing {
         }
         Some((quotient, rest))
     }
+}
+
+fn entrywise(a: &Element, b: &Element, with: impl Fn(&mut BigRational, &BigRational)) -> Element {
+    let mut out = a.0.clone();
+    out.resize(a.0.len().max(b.0.len()), BigRational::zero());
+    out.iter_mut().zip(&b.0).for_each(|(x, y)| with(x, y));
+    Element::new(out)
 }
 
 /// Returns elements as integral coordinates over one denominator.

@@ -3,10 +3,11 @@
 use super::MeantScene;
 use super::number::{Rational3, is_same};
 use super::resolve::{Resolved, resolve};
-use super::written::{Ray, WrittenPoint, WrittenScene, WrittenSymmetry};
+use super::written::{Written, WrittenScene, WrittenSymmetry};
 use crate::closure::contour::contour_basis;
 use crate::geom::expr::Expr;
-use crate::geom::vector::real;
+use crate::geom::vector::{cross, dot, length, real, sub, unit};
+use crate::meant::relations::RelationKind;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mode};
 use crate::model::rounded::{FrameUncertainty, Uncertainties, uncertainties};
@@ -53,21 +54,13 @@ struct Gathered {
 impl Gathered {
     fn point(&mut self, v: &[Expr; 3], half: [f64; 3], of: JointId) -> usize {
         self.points.push(of);
-        self.written.points.push(WrittenPoint {
-            value: real(v),
-            exact: rational(v),
-            half,
-        });
+        self.written.points.push(written(v, half));
         self.points.len() - 1
     }
 
     fn ray(&mut self, v: &[Expr; 3], half: [f64; 3], of: Option<JointId>) -> usize {
         self.rays.push(of);
-        self.written.rays.push(Ray {
-            value: real(v),
-            exact: rational(v),
-            half,
-        });
+        self.written.rays.push(written(v, half));
         self.rays.len() - 1
     }
 
@@ -154,6 +147,14 @@ impl Uses {
             axis: self.axis || other.axis,
             reference: self.reference || other.reference,
         }
+    }
+}
+
+fn written(v: &[Expr; 3], half: [f64; 3]) -> Written {
+    Written {
+        value: real(v),
+        exact: rational(v),
+        half,
     }
 }
 
@@ -333,4 +334,66 @@ fn write(v: &mut [Expr; 3], x: &Rational3) {
         }
     }
     settled(v);
+}
+
+/// Returns the joints that a scene has moved, in file order.
+#[must_use]
+pub fn moved_joints(meant: &Meant) -> Vec<JointId> {
+    let moved = |(j, joint): &(JointId, &Joint)| {
+        let before = &meant.written[j.index()];
+        let shift = length(sub(real(&joint.frame.point), real(&before.point)));
+        shift != 0.0 || turned(before, &joint.frame) != 0.0
+    };
+    let joints = meant.mechanism.joints_with_ids();
+    joints.filter(moved).map(|(j, _)| j).collect()
+}
+
+/// Returns the angle by which the axes of a frame have turned `[rad]`.
+fn turned(before: &Frame, now: &Frame) -> f64 {
+    let angle = |a: [f64; 3], b: [f64; 3]| {
+        let (a, b) = (unit(a), unit(b));
+        length(cross(a, b)).atan2(dot(a, b).abs())
+    };
+    // Differences at the level of rounding errors are not reported.
+    let told = |x: f64| if x > 1e-15 { x } else { 0.0 };
+    let of = |a: &[_; 3], b: &[_; 3]| told(angle(real(a), real(b)));
+    of(&before.axis, &now.axis).max(of(&before.reference, &now.reference))
+}
+
+/// Describes the recovered relations: "13 axes parallel, 14 centres in planes, 4 equal vectors" and a largest move such
+/// as 0.9 halves of a unit of the last digit.
+#[must_use]
+pub fn understood(meant: &Meant) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    let mut groups: Vec<usize> = Vec::new();
+    for (of, &cluster) in meant.rays.iter().zip(&meant.scene.cluster) {
+        groups.resize(groups.len().max(cluster + 1), 0);
+        groups[cluster] += usize::from(of.is_some());
+    }
+    groups.retain(|n| *n > 1);
+    groups.sort_unstable_by(|a, b| b.cmp(a));
+    if !groups.is_empty() {
+        let all: Vec<String> = groups.iter().map(usize::to_string).collect();
+        parts.push(format!("{} axes parallel", all.join(" + ")));
+    }
+    for (kind, what) in [
+        (RelationKind::Coincident, "coincident centres"),
+        (RelationKind::InPlane, "in a plane with another"),
+        (RelationKind::OnLine, "on a line with another"),
+        (RelationKind::EqualVectors, "equal vectors"),
+        (RelationKind::Mirrored, "mirrored"),
+    ] {
+        let n = meant.scene.relations.iter().filter(|r| r.0 == kind).count();
+        if n > 0 {
+            parts.push(format!("{n} {what}"));
+        }
+    }
+    if parts.is_empty() {
+        parts.push("no two joints related".to_owned());
+    }
+    format!(
+        "{}; every number moved by at most {:.2} units of its last digit",
+        parts.join(", "),
+        meant.scene.moved / 2.0
+    )
 }

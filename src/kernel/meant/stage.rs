@@ -9,7 +9,7 @@ use super::projection::Projection;
 use super::relations::{Normals, Relation, Use};
 use super::solve::{PointEquation, solve};
 use super::together::together;
-use super::written::{Ray, WrittenScene};
+use super::written::{Written, WrittenScene};
 use crate::geom::vector::{Vector, sub};
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -61,7 +61,7 @@ impl<'a> Stage<'a> {
         let size = written.size();
         let within = NEVER_ALL * caution.bold;
         let least = errors.iter().fold(f64::INFINITY, |a, &e| a.min(e));
-        let inexact = written.rays.iter().map(Ray::error).filter(|e| *e > 0.0);
+        let inexact = written.rays.iter().map(Written::error).filter(|e| *e > 0.0);
         let digits = places((least / size).min(inexact.fold(1.0, f64::min))).min(18);
         let (of, symmetric) = directions(written, &points, &errors, caution.bold);
         let frame = SceneFrame::of(&of.all);
@@ -195,7 +195,7 @@ impl<'a> Stage<'a> {
             .map(|e| self.frame.outside_exactly(&e.exact))
             .collect();
         let all = self.written.rays.iter().zip(&self.of.of_ray);
-        let one = |(ray, (k, sign)): (&Ray, &(usize, f64))| match ray.is_exact() {
+        let one = |(ray, (k, sign)): (&Written, &(usize, f64))| match ray.is_exact() {
             true => ray.exact.clone(),
             false if *sign < 0.0 => outside[*k].each_ref().map(|x| x * &minus_one),
             false => outside[*k].clone(),

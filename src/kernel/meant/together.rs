@@ -2,7 +2,8 @@
 //! exactly so. Each relation is accepted only if all accepted ones still hold within the digits.
 
 use super::directions::Direction;
-use crate::geom::vector::{Vector, add_scaled, cross, dot, length, unit};
+use crate::geom::vector::{self, Vector, cross, dot, length, unit};
+use ozols_dense::{add_scaled, dot as list_dot, norm};
 
 /// A relation of directions.
 #[derive(Debug, Clone, Copy)]
@@ -58,23 +59,21 @@ impl Turns<'_> {
     fn units(&self) -> Vec<Vector> {
         let turned = |(n, d): (usize, &Direction)| {
             let by = |k: usize| self.turns[2 * n + k] * d.tilts[k].1;
-            let v = add_scaled(d.unit, by(0), d.tilts[0].0);
-            unit(add_scaled(v, by(1), d.tilts[1].0))
+            let v = vector::add_scaled(d.unit, by(0), d.tilts[0].0);
+            unit(vector::add_scaled(v, by(1), d.tilts[1].0))
         };
         self.all.iter().enumerate().map(turned).collect()
     }
 
     /// Makes a row hold that deviates by `residue`. Returns the move in errors, or `None` if it contradicts the others.
     fn put(&mut self, mut a: Vec<f64>, residue: f64) -> Option<f64> {
-        let norm = |a: &[f64]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
         let before = norm(&a);
         if before == 0.0 {
             return (residue.abs() < 1e-14).then_some(0.0);
         }
         for _ in 0..2 {
             for b in &self.basis {
-                let part: f64 = a.iter().zip(b).map(|(x, y)| x * y).sum();
-                a.iter_mut().zip(b).for_each(|(x, y)| *x -= part * y);
+                a = add_scaled(&a, -list_dot(&a, b), b);
             }
         }
         let left = norm(&a);
@@ -83,10 +82,7 @@ impl Turns<'_> {
         }
         let step = residue / left;
         a.iter_mut().for_each(|x| *x /= left);
-        self.turns
-            .iter_mut()
-            .zip(&a)
-            .for_each(|(t, x)| *t -= step * x);
+        self.turns = add_scaled(&self.turns, -step, &a);
         self.basis.push(a);
         Some(step.abs())
     }
@@ -151,7 +147,7 @@ pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize,
         let (before, rows) = (turns.turns.clone(), turns.basis.len());
         let (off, by) = r.at(&start);
         let row = turns.row(&by);
-        let moved: f64 = row.iter().zip(&turns.turns).map(|(a, t)| a * t).sum();
+        let moved = list_dot(&row, &turns.turns);
         let step = turns.put(row, off + moved);
         let touched: Vec<usize> = (0..start.len())
             .filter(|d| {
@@ -178,8 +174,7 @@ pub(super) fn together(all: &mut [Direction], bold: f64, allowed: impl Fn(usize,
         for r in &taken {
             let (off, by) = r.at(&at);
             let row = next.row(&by);
-            let there: f64 = row.iter().zip(&last).map(|(a, t)| a * t).sum();
-            let here: f64 = row.iter().zip(&next.turns).map(|(a, t)| a * t).sum();
+            let (there, here) = (list_dot(&row, &last), list_dot(&row, &next.turns));
             let _ = next.put(row, off - there + here);
         }
         turns = next;

@@ -6,23 +6,12 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-/// A point as written.
+/// A point, or a direction of any length, as written. The sign of a direction has no meaning.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WrittenPoint {
+pub struct Written {
     /// Its coordinates.
     pub value: Vector,
     /// Its exact coordinates.
-    pub exact: Rational3,
-    /// Half a unit of the last digit of each; 0 if it is exact.
-    pub half: Vector,
-}
-
-/// A direction as written, of any length; its sign has no meaning.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Ray {
-    /// Its components.
-    pub value: Vector,
-    /// Its exact components.
     pub exact: Rational3,
     /// Half a unit of the last digit of each; 0 if it is exact.
     pub half: Vector,
@@ -43,9 +32,9 @@ pub struct WrittenSymmetry {
 #[derive(Debug, Clone, Default)]
 pub struct WrittenScene {
     /// Its points.
-    pub points: Vec<WrittenPoint>,
+    pub points: Vec<Written>,
     /// Its directions.
-    pub rays: Vec<Ray>,
+    pub rays: Vec<Written>,
     /// The stated symmetry.
     pub symmetry: Option<WrittenSymmetry>,
 }
@@ -104,18 +93,18 @@ impl WrittenScene {
     /// Returns the possible error of each point, in each coordinate.
     pub(super) fn errors(&self) -> Vec<f64> {
         let least = self.floor();
-        let largest = |p: &WrittenPoint| p.half.iter().fold(least, |a, &h| a.max(h));
+        let largest = |p: &Written| p.half.iter().fold(least, |a, &h| a.max(h));
         self.points.iter().map(largest).collect()
     }
 }
 
-impl Ray {
-    /// Returns its unit vector.
+impl Written {
+    /// Returns the unit vector of a direction.
     pub(super) fn unit(&self) -> Vector {
         unit(self.value)
     }
 
-    /// Returns its possible angular error `[rad]`; 0 if it is exact.
+    /// Returns the possible angular error of a direction `[rad]`; 0 if it is exact.
     pub(super) fn error(&self) -> f64 {
         if self.is_exact() {
             return 0.0;

@@ -353,6 +353,12 @@ impl Mechanism {
             .filter(move |&j| self.joints[j].is_in(state))
     }
 
+    /// Returns the joints of a link that are present in a state, in file order.
+    pub fn joints_at(&self, link: LinkId, state: StateId) -> impl Iterator<Item = JointId> + '_ {
+        self.joints_in(state)
+            .filter(move |&j| self.joints[j].links.contains(&link))
+    }
+
     /// Returns the joints that a state has and the free one does not, in file order.
     pub fn joints_added_in(&self, state: StateId) -> impl Iterator<Item = JointId> + '_ {
         let only_here = |j: &JointId| !self.joints[*j].is_in(StateId::FREE);

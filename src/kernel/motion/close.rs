@@ -1,7 +1,7 @@
 //! Closing the contours of a pose: damped Newton steps of least norm.
 
 use crate::motion::pose::Pose;
-use ozols_dense::{Matrix, least_squares};
+use ozols_dense::{Matrix, add_scaled, difference, largest, least_squares, norm};
 
 /// Maximum number of Newton steps per pose.
 const STEPS: usize = 60;
@@ -25,6 +25,21 @@ pub enum PoseError {
 /// Share of a step within which a pose counts as the one it came from.
 const BACK: f64 = 0.1;
 
+/// How closed coordinates are sought.
+pub(crate) struct Newton<'a> {
+    /// Columns that keep their coordinates.
+    pub(crate) hold: &'a [usize],
+    /// Further equations: their values and rows at some coordinates.
+    pub(crate) beside: &'a dyn Fn(&[f64]) -> Vec<(f64, Vec<f64>)>,
+    /// Maximum number of steps, and the longest.
+    pub(crate) steps: usize,
+    pub(crate) longest: f64,
+    /// Distance from the start beyond which coordinates are useless.
+    pub(crate) most: f64,
+    /// Whether to stop after these gaps.
+    pub(crate) stops: &'a dyn Fn(&[f64]) -> bool,
+}
+
 impl Pose {
     /// Returns closed coordinates next to those of `from`, along a motion. The largest coordinate of the step is `far`, which is
     /// halved up to `halvings` times until the pose closes elsewhere.
@@ -33,15 +48,12 @@ impl Pose {
     /// As [`Pose::close`] for each step tried.
     #[must_use]
     pub fn beside(&self, from: &[f64], along: &[f64], far: f64, halvings: u32) -> Option<Vec<f64>> {
-        let largest = |q: &[f64]| q.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let whole = far / largest(along).max(f64::MIN_POSITIVE);
         let steps =
             (0..=halvings).map(|h| (far / f64::from(1u32 << h), whole / f64::from(1u32 << h)));
         steps.into_iter().find_map(|(far, step)| {
-            let guess = from.iter().zip(along).map(|(q, x)| q + x * step);
-            let q = self.close(guess.collect(), &[]).ok()?;
-            let moved: Vec<f64> = q.iter().zip(from).map(|(a, b)| a - b).collect();
-            (largest(&moved) > BACK * far.abs()).then_some(q)
+            let q = self.close(add_scaled(from, step, along), &[]).ok()?;
+            (largest(&difference(&q, from)) > BACK * far.abs()).then_some(q)
         })
     }
 
@@ -67,79 +79,92 @@ impl Pose {
     /// As [`Pose::close`].
     pub(crate) fn close_within(
         &self,
-        mut q: Vec<f64>,
+        q: Vec<f64>,
         hold: &[usize],
         most: f64,
     ) -> Result<Vec<f64>, PoseError> {
         let closed = self.closed();
-        let start = q.clone();
-        // Coordinate errors must not be corrected by moving along the motion.
-        let floor = (1e3 * self.accuracy()).clamp(1e-11, 1e-2);
-        let (mut residual, mut before) = (f64::INFINITY, f64::INFINITY);
-        let mut best = (f64::INFINITY, q.clone());
-        for _ in 0..STEPS {
-            let gaps = self.gaps(&q);
-            residual = gaps.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if residual < best.0 {
-                best = (residual, q.clone());
-            }
-            // The last steps are free: Newton's method is quadratic, unless the pose is singular.
-            if residual < 1e-14 || !residual.is_finite() {
-                break;
-            }
-            // Measured contours never close exactly. Further steps would creep along the motion to where they close
-            // better.
-            if self.accuracy() > 0.0 && residual < closed && residual > before / 2.0 {
-                break;
-            }
-            before = residual;
-            let mut jacobian = self.jacobian(&q);
-            for &c in hold {
-                jacobian.col_mut(c).fill(0.0);
-            }
-            let step = least_norm(&jacobian, &gaps, residual.clamp(floor, 1e-2));
-            let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if !length.is_finite() || (length < 1e-16 && residual < closed) {
-                break;
-            }
-            let shorten = (0.5 / length).min(1.0);
-            for (x, s) in q.iter_mut().zip(&step) {
-                *x -= shorten * s;
-            }
-            let far = q
-                .iter()
-                .zip(&start)
-                .map(|(a, b)| (a - b) * (a - b))
-                .sum::<f64>();
-            if far.sqrt() > 2.0 * most {
-                return Err(PoseError::Open {
-                    steps: STEPS,
-                    residual: best.0,
-                });
-            }
-        }
-        if best.0 < closed {
-            Ok(best.1)
+        // Measured contours never close exactly. Further steps would creep along the motion to where they close better.
+        let stops = |gaps: &[f64]| match *gaps {
+            [.., before, gap] => self.accuracy() > 0.0 && gap < closed && gap > before / 2.0,
+            _ => false,
+        };
+        let (q, residual, far) = self.newton(
+            q,
+            &Newton {
+                hold,
+                beside: &|_| Vec::new(),
+                steps: STEPS,
+                longest: 0.5,
+                most: 2.0 * most,
+                stops: &stops,
+            },
+        );
+        if residual < closed && !far {
+            Ok(q)
         } else {
             Err(PoseError::Open {
                 steps: STEPS,
-                residual: residual.min(best.0),
+                residual,
             })
         }
+    }
+
+    /// Returns the coordinates near `q` that satisfy all equations best, the remaining gap, and whether they led too
+    /// far.
+    pub(crate) fn newton(&self, mut q: Vec<f64>, how: &Newton<'_>) -> (Vec<f64>, f64, bool) {
+        let start = q.clone();
+        // Coordinate errors must not be corrected by moving along the motion.
+        let floor = (1e3 * self.accuracy()).clamp(1e-11, 1e-2);
+        let mut best = (q.clone(), f64::INFINITY);
+        let mut history: Vec<f64> = Vec::new();
+        for _ in 0..how.steps {
+            let more = (how.beside)(&q);
+            let mut gaps = self.gaps(&q);
+            gaps.extend(more.iter().map(|(x, _)| x));
+            let gap = norm(&gaps);
+            if gap < best.1 {
+                best = (q.clone(), gap);
+            }
+            history.push(gap);
+            // The last steps are free: Newton's method is quadratic, unless the pose is singular.
+            if gap < 1e-14 || !gap.is_finite() || (how.stops)(&history) {
+                break;
+            }
+            let mut jacobian = self.jacobian(&q);
+            for &c in how.hold {
+                jacobian.col_mut(c).fill(0.0);
+            }
+            let step = least_norm(&jacobian, &more, gaps, gap.clamp(floor, 1e-2));
+            let length = norm(&step);
+            if !length.is_finite() || length < 1e-16 {
+                break;
+            }
+            q = add_scaled(&q, -(how.longest / length).min(1.0), &step);
+            if norm(&difference(&q, &start)) > how.most {
+                return (best.0, best.1, true);
+            }
+        }
+        (best.0, best.1, false)
     }
 }
 
 /// Returns the damped solution of J·x = gaps, min |J·x - gaps|² + λ|x|², by orthogonal factors, with λ in proportion to
 /// the gap. If J is singular at the solution, this still converges. If J is regular, the damping vanishes faster than
 /// the error [Yamashita & Fukushima 2001].
-fn least_norm(jacobian: &Matrix, gaps: &[f64], damping: f64) -> Vec<f64> {
-    let (rows, columns) = (jacobian.nrows(), jacobian.ncols());
-    let stacked = Matrix::from_fn(rows + columns, columns, |r, c| match r.checked_sub(rows) {
-        None => jacobian[(r, c)],
+fn least_norm(
+    jacobian: &Matrix,
+    more: &[(f64, Vec<f64>)],
+    mut gaps: Vec<f64>,
+    damping: f64,
+) -> Vec<f64> {
+    let (rows, all, columns) = (jacobian.nrows(), gaps.len(), jacobian.ncols());
+    let stacked = Matrix::from_fn(all + columns, columns, |r, c| match r.checked_sub(all) {
+        None if r < rows => jacobian[(r, c)],
+        None => more[r - rows].1[c],
         Some(i) if i == c => damping,
         Some(_) => 0.0,
     });
-    let mut right = gaps.to_vec();
-    right.resize(rows + columns, 0.0);
-    least_squares(&stacked, &right)
+    gaps.resize(all + columns, 0.0);
+    least_squares(&stacked, &gaps)
 }

@@ -15,7 +15,7 @@
 //! get a new reference pose.
 
 use crate::motion::pose::{FLAT, Pose};
-use ozols_dense::{Matrix, svd};
+use ozols_dense::{add_scaled, difference, dot, largest, norm, svd};
 use thiserror::Error;
 
 /// The longest step of the drive: radians, or fractions of the mechanism's size.
@@ -106,14 +106,6 @@ pub struct Follower {
     fewest: usize,
 }
 
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 /// Returns the motion at drive speed 1 nearest to `before` (or the smallest if there is none), with some columns held.
 fn tangent(
     anchor: &Pose,
@@ -132,8 +124,7 @@ fn tangent(
         kept,
     };
     let whole = anchor.jacobian(q);
-    let part = Matrix::from_fn(whole.nrows(), free.len(), |r, c| whole[(r, free[c])]);
-    let Some(svd) = svd(&part) else {
+    let Some(svd) = svd(&whole.select_columns(&free)) else {
         return none(0, 0.0);
     };
     // Coordinate errors open poses slightly, and hide singular values up to their size.
@@ -145,7 +136,7 @@ fn tangent(
     let Some(row) = free.iter().position(|&c| c == drive) else {
         return none(motions, kept);
     };
-    let share: Vec<f64> = (0..motions).map(|m| null[(row, m)]).collect();
+    let share = null.row(row);
     let size = norm(&share);
     if size < 1e-12 {
         return none(motions, kept);
@@ -165,8 +156,8 @@ fn tangent(
         *w += missing * s;
     }
     let mut speeds = vec![0.0; f];
-    for (r, &c) in free.iter().enumerate() {
-        speeds[c] = (0..motions).map(|m| null[(r, m)] * weights[m]).sum();
+    for (&c, speed) in free.iter().zip(null.combined(&weights)) {
+        speeds[c] = speed;
     }
     Tangent {
         share: 1.0 / norm(&speeds),
@@ -216,12 +207,6 @@ impl Follower {
         self.tangent.share
     }
 
-    /// Returns the number of motions with the other drives held: 1, idle ones, and those that no drive determines.
-    #[must_use]
-    pub fn motions(&self) -> usize {
-        self.tangent.motions
-    }
-
     fn tangent_at(&self, q: &[f64], before: Option<&Tangent>) -> Tangent {
         let (drive, held) = (self.drive, &self.held);
         tangent(&self.anchor, q, drive, held, before, self.fewest)
@@ -230,12 +215,7 @@ impl Follower {
     /// Returns the result of one step to a position of the drive, or `None` if it leaves the branch.
     fn step(&self, to: f64) -> Option<Follower> {
         let ahead = to - self.at();
-        let mut guess: Vec<f64> = self
-            .q
-            .iter()
-            .zip(&self.tangent.speeds)
-            .map(|(q, t)| q + ahead * t)
-            .collect();
+        let mut guess = add_scaled(&self.q, ahead, &self.tangent.speeds);
         // The position is exact, whatever the rounding along the path.
         guess[self.drive] = to - self.anchor.columns[self.drive].moved;
         for &h in &self.held {
@@ -245,8 +225,7 @@ impl Follower {
         hold.push(self.drive);
         let most = CORRECTION * ahead.abs() * norm(&self.tangent.speeds);
         let q = self.anchor.close_within(guess.clone(), &hold, most).ok()?;
-        let correction: Vec<f64> = q.iter().zip(&guess).map(|(a, b)| a - b).collect();
-        if norm(&correction) > most {
+        if norm(&difference(&q, &guess)) > most {
             return None;
         }
         let next = self.tangent_at(&q, Some(&self.tangent));
@@ -299,11 +278,7 @@ impl Follower {
             if self.tangent.speeds.is_empty() {
                 return Err(self.stop());
             }
-            let fastest = self
-                .tangent
-                .speeds
-                .iter()
-                .fold(1.0, |m: f64, x| m.max(x.abs()));
+            let fastest = largest(&self.tangent.speeds).max(1.0);
             let most = longest.min(FARTHEST / fastest);
             let target = if ahead.abs() <= most {
                 to
@@ -349,55 +324,11 @@ impl Follower {
     fn branches(&self) -> bool {
         let ahead = 1e-3;
         [ahead, -ahead].iter().any(|h| {
-            let near: Vec<f64> = self
-                .q
-                .iter()
-                .zip(&self.tangent.speeds)
-                .map(|(q, t)| q + h * t)
-                .collect();
+            let near = add_scaled(&self.q, *h, &self.tangent.speeds);
             self.anchor
                 .close(near, &self.held)
                 .is_ok_and(|q| self.tangent_at(&q, None).motions < self.tangent.motions)
         })
-    }
-}
-
-/// A stroke in equal steps.
-#[derive(Debug, Clone)]
-pub struct Followed {
-    /// The poses at the requested positions, in order, as far as they were reached.
-    pub reached: Vec<Follower>,
-    /// The position and the reason if it ended before the last.
-    pub stop: Option<Stop>,
-}
-
-/// Follows a mechanism from its pose to the position `from` of a column, without recording poses, and on to `to` in
-/// `steps` equal steps. Positions are in radians, or fractions of [`Pose::length`].
-///
-/// # Complexity
-/// As [`Follower::advance`], for about ten poses per radian.
-#[must_use]
-pub fn follow(
-    pose: &Pose,
-    drive: usize,
-    held: &[usize],
-    range: [f64; 2],
-    steps: usize,
-) -> Followed {
-    let mut follower = Follower::new(pose.clone(), drive, held);
-    let mut reached = Vec::new();
-    for to in positions(range, steps) {
-        if let Err(stop) = follower.advance(to, |_| {}) {
-            return Followed {
-                reached,
-                stop: Some(stop),
-            };
-        }
-        reached.push(follower.clone());
-    }
-    Followed {
-        reached,
-        stop: None,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::closure::tree::path_from_frame;
 use crate::model::mechanism::{JointId, Mechanism, Role, StateId};
 use crate::motion::drive_range::Way;
 use crate::motion::pose::{FLAT, Pose};
-use ozols_dense::{Matrix, svd};
+use ozols_dense::{difference, dot, largest, svd};
 
 /// Distance to which it is followed to either side, by the coordinate that moves most from step to step: radians, or
 /// fractions of [`Pose::length`].
@@ -65,8 +65,7 @@ fn next(
     let along = direction(at, paths, Some(onward))?;
     let ahead: Vec<f64> = along.iter().map(|x| step * x).collect();
     let q = at.close(ahead.clone(), &[]).ok()?;
-    let off: Vec<f64> = q.iter().zip(&ahead).map(|(a, b)| a - b).collect();
-    (largest(&off) <= ASTRAY * step).then(|| (at.moved(&q), q))
+    (largest(&difference(&q, &ahead)) <= ASTRAY * step).then(|| (at.moved(&q), q))
 }
 
 /// Returns the motion, scaled to a largest coordinate of 1, that moves the outputs most for its size. During following
@@ -80,33 +79,15 @@ fn direction(
     let all = pose.jacobian_with(paths, &[]);
     let closure = svd(&pose.jacobian(&vec![0.0; f]))?;
     let kernel = closure.null_space(closure.rank(FLAT));
-    let rows = pose.rows();
-    let outputs = Matrix::from_fn(all.nrows() - rows, f, |r, c| all[(rows + r, c)]);
-    let moved = svd(&outputs.times(&kernel))?;
+    let rows: Vec<usize> = (pose.rows()..all.nrows()).collect();
+    let moved = svd(&all.select_rows(&rows).times(&kernel))?;
     let working = moved.values.iter().filter(|&&s| s > FLAT).count();
-    let motion = |i: usize| -> Vec<f64> {
-        let weights = (0..kernel.ncols()).map(|k| moved.v[(k, i)]);
-        let weights: Vec<f64> = weights.collect();
-        (0..f)
-            .map(|r| {
-                weights
-                    .iter()
-                    .enumerate()
-                    .map(|(k, w)| kernel[(r, k)] * w)
-                    .sum()
-            })
-            .collect()
-    };
     let mut out = vec![0.0; f];
     for i in 0..working.min(if onward.is_some() { working } else { 1 }) {
-        let own = motion(i);
-        let share = onward.map_or(1.0, |o| o.iter().zip(&own).map(|(a, b)| a * b).sum());
+        let own = kernel.combined(moved.v.col(i));
+        let share = onward.map_or(1.0, |o| dot(o, &own));
         out.iter_mut().zip(&own).for_each(|(x, y)| *x += share * y);
     }
     let size = largest(&out);
     (size > FLAT).then(|| out.into_iter().map(|x| x / size).collect())
-}
-
-fn largest(q: &[f64]) -> f64 {
-    q.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
 }

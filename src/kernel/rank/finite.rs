@@ -1,21 +1,14 @@
 //! Finite (full-cycle) mobility: the dimension of the actual motion, as opposed to the instantaneous f - rank J.
 
-pub mod at_rest;
 pub mod bonds;
-mod contours;
 pub mod displacement_group;
 pub mod higher_order;
-mod idle_ways;
 pub mod independent_parts;
 pub mod local_dimension;
 mod mobility;
 mod multiplicity;
-mod never_stopped;
 pub(in crate::rank) mod power_series;
-mod regular;
-mod scales;
 pub(in crate::rank) mod second_order;
-mod singular;
 pub(in crate::rank) mod tangent_cone;
 
 use crate::closure::Closure;
@@ -27,9 +20,10 @@ use crate::motion::pose::Pose;
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
 use crate::rank::finite::local_dimension::Traced;
-use crate::rank::finite::never_stopped::Expanded;
-use crate::rank::finite::regular::{by_ranks, regular};
-use crate::rank::finite::second_order::{Roundings, SecondOrder};
+use crate::rank::finite::local_dimension::continuation::lengths_are_alike;
+use crate::rank::finite::mobility::{by_ranks, regular};
+use crate::rank::finite::multiplicity::{Expanded, are_apart};
+use crate::rank::finite::second_order::{Roundings, SecondOrder, passed};
 use crate::rank::numeric::scaling::{rank_of_values, scaled};
 use ozols_dense::singular_values;
 
@@ -107,28 +101,19 @@ pub(crate) fn finite_known(
         }
         let found = match regular(exact, &part, &own, rank)? {
             Some(known) => known,
-            None => moved(exact, &part, &own, rank, known)?,
+            None => {
+                let pose = Pose::of_file(&part, state)?;
+                let found = exactly(exact, &part, &own, rank, &pose)?;
+                let digits = |known| {
+                    let instantaneous = own.columns.len() - rank;
+                    within_digits(&part, &pose, instantaneous, Some(found), known)
+                };
+                known.map_or(found, digits)
+            }
         };
         total = total.and(found);
     }
     Ok(total)
-}
-
-/// Returns the finite mobility of a part that ranks do not decide, by higher order and by following the motion.
-fn moved(
-    exact: &ExactField,
-    mechanism: &Mechanism,
-    closure: &Closure<Residue>,
-    rank: usize,
-    known: Option<&Roundings>,
-) -> Result<Finite, ExactError> {
-    let pose = Pose::of_file(mechanism, closure.state)?;
-    let found = exactly(exact, mechanism, closure, rank, &pose)?;
-    let instantaneous = closure.columns.len() - rank;
-    Ok(match known {
-        Some(known) => within_digits(mechanism, &pose, instantaneous, Some(found), known),
-        None => found,
-    })
 }
 
 /// Returns the finite mobility of a part with exact coordinates that ranks do not decide.
@@ -144,44 +129,40 @@ fn exactly(
     let (series, line) = (expanded.series.as_ref(), expanded.line);
     let isolated = |m: usize| series.and_then(|s| s.isolated(m));
     let stopped = line.and_then(|l| l.stopped);
-    let proven = |order| nothing_moves(order, instantaneous);
+    let motions = instantaneous;
+    let proven = |order| Finite::new(0, How::Stopped { order, motions });
     if let (1, Some(order)) = (instantaneous, stopped) {
         return Ok(proven(order));
     }
     let by = if expanded.is_never_stopped() {
         Some(Proof::Multiplicity)
-    } else if stopped.is_none() && contours::are_apart(exact, mechanism, closure, rank)? {
+    } else if stopped.is_none() && are_apart(exact, mechanism, closure, rank)? {
         Some(Proof::Contours)
     } else {
         None
     };
     if let Some(by) = by {
-        return Ok(Finite::new(
-            instantaneous,
-            How::Submersion {
-                dimension: rank,
-                by,
-            },
-        ));
+        return Ok(Finite::regular(instantaneous, rank, by));
     }
     // If series stop the motion in a random direction, not every first-order motion is finite.
     let shaky = stopped.is_some();
-    if !scales::are_alike(exact, mechanism, closure.state)? {
+    if !lengths_are_alike(exact, mechanism, closure.state)? {
         let (from, to) = (0, instantaneous - usize::from(shaky));
         return Ok(Finite::new(from, How::Undecided { from, to }));
     }
     if let (Some(series), Some(order)) = (series, stopped)
-        && let Some(found) = singular::passed(exact, mechanism, closure, rank, pose, series, order)?
+        && let Some(found) = passed(exact, mechanism, closure, rank, pose, series, order)?
     {
         return Ok(found);
     }
-    let Some(found) = pursued(pose, instantaneous, shaky) else {
+    let Some(mut found) = pursued(pose, instantaneous, shaky) else {
         return Ok(too_large(instantaneous - usize::from(shaky)));
     };
     // A coordinate that begins to move with a high power of the path length pushes with a higher one, if at all, which
-    // doubles do not resolve.
-    let seen = line.is_none_or(|l| l.begun <= SEEN);
-    let found = if seen { found } else { unseen(found) };
+    // doubles do not resolve. Then only the upper bound counts.
+    if line.is_some_and(|l| l.begun > SEEN) {
+        (found.mobility, found.regular) = (0, false);
+    }
     if found.regular {
         return Ok(of_pursuit(found));
     }
@@ -195,11 +176,6 @@ fn exactly(
     })
 }
 
-/// Returns the proven result if all `motions` instantaneous motions are stopped.
-fn nothing_moves(order: usize, motions: usize) -> Finite {
-    Finite::new(0, How::Stopped { order, motions })
-}
-
 /// Follows the motion of a pose, unless it is too large.
 fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
     let work = pose.rows() * pose.rows() * pose.columns.len();
@@ -208,15 +184,6 @@ fn pursued(pose: &Pose, instantaneous: usize, shaky: bool) -> Option<Traced> {
     }
     let budget = (WORK / work.max(1)).clamp(40, CLOSINGS);
     local_dimension::mobility(pose, instantaneous, shaky, budget)
-}
-
-/// Returns the result of following if gaps may be too small to be seen: only the upper bound counts.
-fn unseen(found: Traced) -> Traced {
-    Traced {
-        mobility: 0,
-        regular: false,
-        ..found
-    }
 }
 
 /// Returns the result for a pose that is not followed: at most the instantaneous mobility.

@@ -1,11 +1,9 @@
 //! Common interface of all mobility methods; [`crate::rank::method::registry`] lists them.
 
 pub mod auto;
-pub(crate) mod finite_exact;
 pub(crate) mod formulas;
 pub mod generic;
 pub mod registry;
-pub(crate) mod sum_of_loops;
 
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -137,6 +135,30 @@ pub struct Answer {
     pub quantity: Quantity,
     /// Certainty of the mobility.
     pub certainty: Certainty,
+}
+
+impl Answer {
+    /// Creates a count from the structure.
+    pub(in crate::rank) fn counted(mobility: i64, certainty: Certainty) -> Answer {
+        Answer {
+            mobility,
+            quantity: Quantity::Count,
+            certainty,
+        }
+    }
+
+    /// Creates the answer W = freedoms - rank at the pose of the file.
+    pub(in crate::rank) fn at_pose(freedoms: usize, rank: usize, certainty: Certainty) -> Answer {
+        Answer {
+            mobility: int(freedoms) - int(rank),
+            quantity: Quantity::Instantaneous,
+            certainty,
+        }
+    }
+}
+
+pub(in crate::rank) fn int(x: usize) -> i64 {
+    i64::try_from(x).unwrap_or(i64::MAX)
 }
 
 /// Reason why a method has no answer.

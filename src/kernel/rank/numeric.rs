@@ -1,11 +1,10 @@
 //! Rank in floating point: from pivots or QR factors of the original J, or from singular values of J scaled so that
 //! units do not matter.
 
-pub(in crate::rank) mod rounding_bound;
 pub mod scaling;
 pub(in crate::rank) mod values;
 
-use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use super::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::mechanism::{Mechanism, StateId};
@@ -215,11 +214,7 @@ impl MobilityMethod for Elimination {
         let rank = self
             .rank(&closure, tolerance)
             .map_err(|e| NoAnswer::Failed(e.to_string()))?;
-        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-        Ok(Answer {
-            mobility: int(closure.columns.len()) - int(rank.rank),
-            quantity: Quantity::Instantaneous,
-            certainty: self.certainty(rank, tolerance),
-        })
+        let certainty = self.certainty(rank, tolerance);
+        Ok(Answer::at_pose(closure.columns.len(), rank.rank, certainty))
     }
 }

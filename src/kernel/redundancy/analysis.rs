@@ -16,13 +16,13 @@ use crate::rank::numeric::NumericRank;
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::rank::rounded::verdict::Meant;
 use crate::redundancy::AnalysisError;
+use crate::redundancy::contour_shares::Measured;
 pub use crate::redundancy::contour_shares::{ContourShare, CouplingShare};
 use crate::redundancy::contour_shares::{coupling_shares, shares};
-use crate::redundancy::drives::{DriveFault, drive_faults};
 pub use crate::redundancy::external::External;
 use crate::redundancy::external::{external, freedoms_of, int, present_links};
 use crate::redundancy::local_mobility::{Idle, idle_motions};
-use crate::redundancy::measured::Measured;
+use crate::redundancy::motion::{DriveFault, drive_faults};
 use crate::redundancy::motion::{motions, outputs, span_of_links};
 use crate::redundancy::stress::{SelfStress, self_stresses};
 

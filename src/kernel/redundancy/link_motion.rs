@@ -9,14 +9,14 @@
 
 use crate::closure::tree::path_from_frame;
 use crate::geom::exact::ExactError;
-use crate::geom::vector::{Vector, add, cross, dot, length, scale, sub};
+use crate::geom::vector::{Vector, X, Y, Z, add, cross, dot, length, scale, sub};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
 use crate::rank::finite::local_dimension::motions;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::external::present_links;
 use crate::redundancy::motion::outputs;
-use ozols_dense::{Matrix, svd};
+use ozols_dense::{Matrix, norm, svd};
 
 /// Maximum number of freedoms of a mechanism. For larger ones, singular vectors are computed only on request.
 const FREEDOMS: usize = 400;
@@ -150,9 +150,7 @@ fn named(pose: &Pose, link: LinkId, relative_to: LinkId, span: &Matrix) -> Optio
         meet: None,
     };
     let columns = span.ncols();
-    let size = (0..columns)
-        .map(|c| norm(&column(span, c)))
-        .fold(0.0, f64::max);
+    let size = (0..columns).map(|c| norm(span.col(c))).fold(0.0, f64::max);
     if size < FLAT {
         return Some(out);
     }
@@ -205,7 +203,7 @@ fn placed(pose: &Pose, p: Vector) -> Vector {
 /// is no such point, or more than one.
 fn meeting(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<Vector> {
     // v = c × ω for each: three equations, linear in c.
-    let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let units = [X, Y, Z];
     let matrix = Matrix::from_fn(3 * twists.len(), 3, |r, c| {
         across(cross(units[c], twists[r / 3][0]))[r % 3]
     });
@@ -217,14 +215,6 @@ fn meeting(twists: &[[Vector; 2]], across: &dyn Fn(Vector) -> Vector) -> Option<
     let c = vector(&found.least_norm(3, &right), 0);
     let off = |[w, v]: &[Vector; 2]| length(sub(across(cross(c, *w)), *v));
     twists.iter().all(|t| off(t) < FLAT.sqrt()).then_some(c)
-}
-
-fn column(m: &Matrix, c: usize) -> Vec<f64> {
-    (0..m.nrows()).map(|r| m[(r, c)]).collect()
-}
-
-fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn vector(m: &Matrix, c: usize) -> Vector {

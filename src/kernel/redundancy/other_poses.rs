@@ -8,7 +8,7 @@ use crate::motion::pose::Pose;
 use crate::rank::finite::local_dimension::motions;
 use crate::rank::finite::{Finite, How};
 use crate::rank::numeric::scaling::rank_of_values;
-use ozols_dense::{Matrix, svd};
+use ozols_dense::{Matrix, add_scaled, difference, norm, svd};
 
 /// Number of further poses examined if nothing else decides what holds over the motion: normally, and if each takes
 /// long.
@@ -256,9 +256,7 @@ impl Walk<'_> {
         }
         // Every motion takes part, with other weights for each pose, forwards and backwards.
         let weight = |c: usize| f64::from(u32::try_from((c * 7 + i * 3) % 11).unwrap_or(0)) - 5.3;
-        let along: Vec<f64> = (0..span.nrows())
-            .map(|r| (0..span.ncols()).map(|c| span[(r, c)] * weight(c)).sum())
-            .collect();
+        let along = span.combined(&(0..span.ncols()).map(weight).collect::<Vec<_>>());
         let sign = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         // Shorter steps, in case limits leave little space.
         let mut tried = SHORTER
@@ -292,13 +290,11 @@ impl Walk<'_> {
     fn is_joined(&self, way: &[(Vec<f64>, Matrix)]) -> bool {
         way.windows(2).all(|ends| {
             let [from, to] = [&ends[0].0, &ends[1].0];
-            let step: Vec<f64> = to.iter().zip(from).map(|(a, b)| a - b).collect();
+            let step = difference(to, from);
             BETWEEN.iter().all(|share| {
-                let guess = from.iter().zip(&step).map(|(a, s)| a + share * s);
-                let guess: Vec<f64> = guess.collect();
+                let guess = add_scaled(from, *share, &step);
                 self.pose.close(guess.clone(), &[]).is_ok_and(|q| {
-                    let off: Vec<f64> = q.iter().zip(&guess).map(|(a, b)| a - b).collect();
-                    norm(&off) <= share.min(1.0 - share) * norm(&step)
+                    norm(&difference(&q, &guess)) <= share.min(1.0 - share) * norm(&step)
                 })
             })
         })
@@ -311,10 +307,6 @@ struct Judged {
     redundant: [usize; 2],
     /// The instantaneous motions, one column each.
     motions: Matrix,
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -10,9 +10,10 @@
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
-use crate::geom::vector::{Vector, cross, dot, length, real, sub, unit};
+use crate::geom::vector::{Vector, cross, length, real, sub, unit};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, Mechanism};
+use ozols_dense::{add_scaled, dot, norm};
 
 /// Distance below which directions count as equal.
 pub(super) const ALIKE: f64 = 1e-5;
@@ -77,18 +78,10 @@ pub(super) fn positive(d: Vector) -> Vector {
     d.map(|x| if x.abs() < 1e-12 { 0.0 } else { sign * x })
 }
 
-pub(super) fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 /// Returns the remainder of a vector after projection on orthonormal vectors.
 pub(super) fn rest(v: &[f64], span: &[Vec<f64>]) -> Vec<f64> {
-    let mut out = v.to_vec();
-    for s in span {
-        let along: f64 = out.iter().zip(s).map(|(a, b)| a * b).sum();
-        out.iter_mut().zip(s).for_each(|(a, b)| *a -= along * b);
-    }
-    out
+    let without = |v: Vec<f64>, s: &Vec<f64>| add_scaled(&v, -dot(&v, s), s);
+    span.iter().fold(v.to_vec(), without)
 }
 
 pub(super) fn orthonormal(vectors: impl Iterator<Item = Vec<f64>>) -> Vec<Vec<f64>> {
@@ -131,7 +124,7 @@ pub fn added(
     for [w, v] in single(then)? {
         let r = rest(&flat([w, v]), &span);
         if norm(&r) > ALIKE {
-            let slides = dot(w, w) < ALIKE * ALIKE;
+            let slides = dot(&w, &w) < ALIKE * ALIKE;
             out.push((slides, positive(unit(if slides { v } else { w }))));
             span.push(r.iter().map(|x| x / norm(&r)).collect());
         }

@@ -15,7 +15,7 @@ use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
 use crate::model::rounded::looks_rounded;
 use crate::rank::exact::field::field_of;
 use crate::rank::exact::modular;
-use crate::redundancy::joint_wrench::JointWrenches;
+use crate::redundancy::stress_loads::JointWrenches;
 use crate::redundancy::stress_loads::{Borne, Faces, Shares};
 use itertools::Itertools;
 

@@ -1,17 +1,17 @@
 //! The self-stresses of a mechanism, part by part: the constraints they load, and the releases that remove them.
 
+use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
-use crate::closure::{Closure, Part};
 use crate::geom::Reals;
 use crate::geom::exact::ExactError;
 use crate::geom::rigid::perpendicular;
-use crate::geom::vector::{Vector, across, cross, length, real, unit};
+use crate::geom::vector::{Vector, X, Y, Z, across, cross, length, real, unit};
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::rank::finite::independent_parts::parts;
 use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::redundancy::release::{ALIKE, Duplicate, Release, norm, orthonormal, positive, rest};
+use crate::redundancy::release::{ALIKE, Duplicate, Release, orthonormal, positive, rest};
 use itertools::Itertools;
-use ozols_dense::{Matrix, Svd, solve, svd};
+use ozols_dense::{Matrix, Svd, dot, norm, solve, svd};
 
 /// Share of a stress of unit length below which it counts as zero.
 const NOTHING: f64 = 1e-6;
@@ -56,7 +56,7 @@ impl<'a> Stressed<'a> {
         rank: usize,
     ) -> Result<Option<Vec<Self>>, ExactError> {
         let whole = Closure::new(&Reals, m, state)?;
-        let parts: Vec<Part<f64>> = parts(&whole).iter().map(|p| whole.part(p)).collect();
+        let parts = whole.parts(&parts(&whole));
         let found: Option<Vec<Svd>> = parts.iter().map(|p| svd(&scaled(&p.closure))).collect();
         let Some(found) = found else {
             return Ok(None);
@@ -142,17 +142,14 @@ impl<'a> Stressed<'a> {
             Release::Coupling(q) => {
                 let place = self.couplings.iter().position(|&own| own == q);
                 let row = place.map(|q| self.closure.contour_rows() + q);
-                (0..self.redundant())
-                    .map(|s| row.map_or(0.0, |row| self.basis[(row, s)]))
-                    .collect()
+                row.map_or(vec![0.0; self.redundant()], |row| self.basis.row(row))
             }
         }
     }
 
     /// Returns the forces on a joint, or the moments about its point: three numbers per stress, by columns.
     fn carried(&self, joint: JointId, forces: bool) -> Matrix {
-        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let rows = axes.map(|a| match self.twist(joint, forces, a) {
+        let rows = [X, Y, Z].map(|a| match self.twist(joint, forces, a) {
             Some(t) => self.powers_of(joint, &t),
             None => vec![0.0; self.redundant()],
         });
@@ -293,14 +290,8 @@ impl<'a> Stressed<'a> {
             right[i] = 1.0;
             let weights = solve(&matrix, &right);
             let size = norm(&weights);
-            let on = |v: &[f64]| {
-                let sum: f64 = v.iter().zip(&weights).map(|(a, b)| a * b).sum();
-                (sum / size).abs() > NOTHING
-            };
-            let entry = |r: usize| {
-                let row: Vec<f64> = (0..n).map(|s| self.basis[(r, s)]).collect();
-                on(&row)
-            };
+            let on = |v: &[f64]| (dot(v, &weights) / size).abs() > NOTHING;
+            let entry = |r: usize| on(&self.basis.row(r));
             let dim = self.closure.dim;
             let contours = 0..self.closure.contours.len();
             let contours = contours.filter(|k| (k * dim..(k + 1) * dim).any(entry));
@@ -311,8 +302,7 @@ impl<'a> Stressed<'a> {
             let loaded = |j: &JointId| {
                 [true, false].into_iter().any(|forces| {
                     let carried = self.carried(*j, forces);
-                    let line = |r: usize| (0..n).map(|s| carried[(r, s)]).collect::<Vec<f64>>();
-                    (0..3).any(|r| on(&line(r)))
+                    (0..3).any(|r| on(&carried.row(r)))
                 })
             };
             let joints = self.joints.iter().copied();
@@ -331,8 +321,7 @@ impl<'a> Stressed<'a> {
 /// Returns a direction, replaced by one of the global or own axes if it is almost equal; its largest component is
 /// positive.
 fn settled(d: Vector, own: &[Vector; 3]) -> Vector {
-    let global = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let near = |a: &&Vector| length(cross(**a, d)) < ALIKE;
-    let found = own.iter().chain(&global).find(near);
+    let found = own.iter().chain(&[X, Y, Z]).find(near);
     positive(found.copied().unwrap_or(d))
 }

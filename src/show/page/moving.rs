@@ -12,7 +12,7 @@ use crate::motion::pose::Pose;
 use crate::motion::working::working_way;
 use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_slides, name_of};
 use crate::redundancy::analysis::StateAnalysis;
-use crate::redundancy::idle_animation::{FAR, wiggle};
+use crate::redundancy::local_mobility::{FAR, wiggle};
 use crate::view::analysis::idle;
 use anyhow::{Context, ensure};
 use std::f64::consts::PI;

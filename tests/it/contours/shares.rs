@@ -3,8 +3,8 @@
 use crate::common::*;
 use ozols::closure::contour::{Contour, closed_walk};
 use ozols::rank::exact::field::field_of;
+use ozols::redundancy::contour_shares::Measured;
 use ozols::redundancy::contour_shares::{ContourShare, shares};
-use ozols::redundancy::measured::Measured;
 
 /// Every closed walk that passes no link twice.
 fn walks(m: &Mechanism, joints: &[JointId]) -> Vec<Contour> {

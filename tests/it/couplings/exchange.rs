@@ -104,11 +104,12 @@ fn ratios_are_turned_over_where_the_second_joint_leads() {
 
 /// Turns of both links about z where the first joint has gone by 0.3.
 fn turns(m: &ozols::Mechanism) -> [f64; 2] {
-    use ozols::motion::follow::follow;
+    use ozols::motion::follow::Follower;
     use ozols::motion::pose::Pose;
     let pose = Pose::of_file(m, StateId::FREE).unwrap();
-    let way = follow(&pose, 0, &[], [0.0, 0.3], 1);
-    let last = way.reached.last().unwrap().pose();
+    let mut follower = Follower::new(pose, 0, &[]);
+    follower.advance(0.3, |_| {}).unwrap();
+    let last = follower.pose();
     ["1", "2"].map(|id| {
         let link = &last.links[m.link(id).unwrap()];
         link.sine()[2].atan2(link.cosine())

@@ -3,7 +3,7 @@
 use crate::common::*;
 use ozols::geom::vector::{length, scale, sub};
 use ozols::motion::pose::Pose;
-use ozols::redundancy::idle_animation::wiggle;
+use ozols::redundancy::local_mobility::wiggle;
 
 #[test]
 fn an_idle_freedom_moves_its_own_links_and_keeps_joints_together() {

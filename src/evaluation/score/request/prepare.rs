@@ -6,7 +6,7 @@ use crate::file::read::resolve::contains;
 use crate::model::mechanism::{CostSpec, Joint, JointOption, Mechanism};
 use crate::model::rounded::Rounded;
 use crate::rank::numeric::DEFAULT_TOLERANCE;
-use crate::rank::rounded::intended::Settled;
+use crate::rank::rounded::verdict::Settled;
 use crate::rank::rounded::verdict::{Meant, RankVerdict};
 use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::Digits;

@@ -2,7 +2,7 @@
 
 pub(crate) mod ranking;
 
-use crate::closure::mirror::Plane;
+use crate::closure::isometry::Isometry;
 use crate::file::costs::costs;
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::{contains, option};
@@ -91,7 +91,7 @@ const NO_IMAGE: f64 = 1e-3;
 
 /// Reports pairs that are not mirror images.
 fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
-    let planes = Plane::of_pairs(mechanism, pairs);
+    let planes = Isometry::mirrors(mechanism, pairs);
     let Some((_, misses)) = planes.first() else {
         return;
     };

@@ -7,17 +7,13 @@ use num_rational::BigRational;
 use super::quadratic::denested;
 use super::radical::ExactError;
 use super::radical::{Radical, radical};
+use crate::geom::Scalars;
 use crate::geom::expr::{Expr, Function, NodeKind, PI};
 
 /// A ring with the angles and roots of some expressions, under one consistent choice of roots.
-pub(crate) trait Target {
-    type Number: Clone + PartialEq + Default;
-
+pub(crate) trait Target: Scalars {
     /// Converts a rational number. Returns `None` if its denominator has no inverse.
     fn rational(&self, r: &BigRational) -> Option<Self::Number>;
-    fn sum(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
-    fn difference(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
-    fn product(&self, a: &Self::Number, b: &Self::Number) -> Self::Number;
     /// Returns the inverse, or `None` if there is none.
     fn inverse(&self, a: &Self::Number) -> Option<Self::Number>;
     /// Returns twice the cosine and the sine of `k/n` turns, or `None` for an unsupported angle.
@@ -32,9 +28,9 @@ pub(crate) trait Target {
     fn power(&self, a: &Self::Number, n: u64) -> Option<Self::Number> {
         let mut out = self.rational(&BigRational::from_integer(1.into()))?;
         for bit in (0..u64::BITS - n.leading_zeros()).rev() {
-            out = self.product(&out, &out);
+            out = self.mul(out.clone(), out);
             if n >> bit & 1 == 1 {
-                out = self.product(&out, a);
+                out = self.mul(out, a.clone());
             }
         }
         Some(out)
@@ -52,21 +48,21 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
     let mut memo: HashMap<usize, T::Number> = HashMap::new();
     let zero = T::Number::default();
     for e in expr.post_order() {
-        let at = |c: &Expr| memo.get(&c.id()).unwrap_or(&zero);
+        let at = |c: &Expr| memo.get(&c.id()).unwrap_or(&zero).clone();
         let inverse = |x: &T::Number| target.inverse(x).ok_or_else(divides);
         let value = match e.kind() {
             NodeKind::Rational(r) => target.rational(r).ok_or_else(divides)?,
             NodeKind::Pi => target.rational(&PI).ok_or_else(divides)?,
-            NodeKind::Add(a, b) => target.sum(at(a), at(b)),
-            NodeKind::Sub(a, b) => target.difference(at(a), at(b)),
-            NodeKind::Mul(a, b) => target.product(at(a), at(b)),
-            NodeKind::Div(a, b) => target.product(at(a), &inverse(at(b))?),
-            NodeKind::Neg(a) => target.difference(&zero, at(a)),
+            NodeKind::Add(a, b) => target.add(at(a), at(b)),
+            NodeKind::Sub(a, b) => target.sub(at(a), at(b)),
+            NodeKind::Mul(a, b) => target.mul(at(a), at(b)),
+            NodeKind::Div(a, b) => target.mul(at(a), inverse(&at(b))?),
+            NodeKind::Neg(a) => target.sub(zero.clone(), at(a)),
             NodeKind::Pow(a, n) => {
-                let power = target.power(at(a), n.unsigned_abs()).ok_or_else(divides)?;
+                let power = target.power(&at(a), n.unsigned_abs()).ok_or_else(divides)?;
                 if *n < 0 { inverse(&power)? } else { power }
             }
-            NodeKind::Sqrt(a) => sqrt(target, a, at(a))?,
+            NodeKind::Sqrt(a) => sqrt(target, a, &at(a))?,
             NodeKind::Trig(function, k, n) => {
                 let [c, s] = target.twice_cos_sin(*k, *n).ok_or_else(|| outside(e))?;
                 let half = || {
@@ -74,9 +70,9 @@ pub(crate) fn eval<T: Target>(target: &T, expr: &Expr) -> Result<T::Number, Exac
                     target.rational(&half).ok_or_else(divides)
                 };
                 match function {
-                    Function::Cos => target.product(&c, &half()?),
-                    Function::Sin => target.product(&s, &half()?),
-                    Function::Tan => target.product(&s, &inverse(&c)?),
+                    Function::Cos => target.mul(c, half()?),
+                    Function::Sin => target.mul(s, half()?),
+                    Function::Tan => target.mul(s, inverse(&c)?),
                 }
             }
         };
@@ -103,7 +99,7 @@ fn sqrt<T: Target>(target: &T, inner: &Expr, value: &T::Number) -> Result<T::Num
             })?;
         return radical.primes.iter().try_fold(coef, |product, &q| {
             let root = target.prime_root(q).ok_or_else(|| outside(inner))?;
-            Ok(target.product(&product, &root))
+            Ok(target.mul(product, root))
         });
     }
     // Rewritten roots have rational radicands only, so this recursion ends at depth one.

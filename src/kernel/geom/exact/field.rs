@@ -1,7 +1,9 @@
 //! One homomorphism from the numbers of expressions into a prime field.
 
-use super::eval::Target;
-use super::radical::Radical;
+use super::eval::{self, Target};
+use super::radical::{ExactError, Radical};
+use crate::geom::Scalars;
+use crate::geom::expr::Expr;
 use crate::linalg::modp::{Field, Residue};
 use num_rational::BigRational;
 use std::collections::BTreeMap;
@@ -21,19 +23,8 @@ pub struct ExactField {
 }
 
 impl Target for ExactField {
-    type Number = Residue;
-
     fn rational(&self, r: &BigRational) -> Option<Residue> {
         self.field.from_rational(r)
-    }
-    fn sum(&self, a: &Residue, b: &Residue) -> Residue {
-        self.field.add(*a, *b)
-    }
-    fn difference(&self, a: &Residue, b: &Residue) -> Residue {
-        self.field.sub(*a, *b)
-    }
-    fn product(&self, a: &Residue, b: &Residue) -> Residue {
-        self.field.mul(*a, *b)
     }
     fn inverse(&self, a: &Residue) -> Option<Residue> {
         (*a != 0).then(|| self.field.inv(*a))
@@ -57,5 +48,25 @@ impl Target for ExactField {
     }
     fn radicals(&self) -> &BTreeMap<BigRational, Radical> {
         &self.radicals
+    }
+}
+
+impl Scalars for ExactField {
+    type Number = Residue;
+
+    fn eval(&self, expr: &Expr) -> Result<Residue, ExactError> {
+        eval::eval(self, expr)
+    }
+    #[inline]
+    fn add(&self, a: Residue, b: Residue) -> Residue {
+        self.field().add(a, b)
+    }
+    #[inline]
+    fn sub(&self, a: Residue, b: Residue) -> Residue {
+        self.field().sub(a, b)
+    }
+    #[inline]
+    fn mul(&self, a: Residue, b: Residue) -> Residue {
+        self.field().mul(a, b)
     }
 }

@@ -12,7 +12,7 @@ use super::quadratic::denested;
 use super::radical::ExactError;
 use super::radical::{Radical, TRIAL_LIMIT, factor, radical};
 use crate::geom::expr::{Expr, MAX_ANGLE_DENOMINATOR, NodeKind};
-use crate::linalg::modp::{Field, is_prime};
+use crate::linalg::modp::{Field, Residue, is_prime};
 
 /// Maximum number of free square roots (of primes, or nested) whose primes are found by rejection, each halving the
 /// supply.
@@ -201,14 +201,7 @@ impl PrimePlan {
             }
             roots.insert(q, root);
         }
-        let zeta = (2..)
-            .take(1 << 16)
-            .map(|g| f.pow(f.from_i64(g), (p - 1) / self.order))
-            .find(|&z| {
-                self.order_primes
-                    .iter()
-                    .all(|r| f.pow(z, self.order / r) != f.one())
-            })?;
+        let zeta = root_of_unity(f, self.order, &self.order_primes)?;
         let inverse_i = f.pow(zeta, self.order / 4 * 3);
         for &q in &self.inner_roots {
             let root = if q == 2 {
@@ -248,6 +241,13 @@ impl PrimePlan {
         }
         Some(field)
     }
+}
+
+/// Returns a primitive root of unity of an order with these prime factors, which divides the number of units.
+pub(crate) fn root_of_unity(f: Field, order: u64, primes: &[u64]) -> Option<Residue> {
+    let each = (2..1 << 16).map(|g| f.pow(f.from_i64(g), (f.modulus() - 1) / order));
+    let primitive = |z: &Residue| primes.iter().all(|q| f.pow(*z, order / q) != f.one());
+    each.into_iter().find(primitive)
 }
 
 /// Returns a hash of some expressions that is the same on every machine: that of their trees, each shared node once.

@@ -3,6 +3,7 @@
 use num_integer::Integer;
 
 use super::NumberField;
+use crate::geom::exact::plan::root_of_unity;
 use crate::geom::exact::radical::factor;
 use crate::linalg::modp::{Field, Residue, is_prime};
 
@@ -100,13 +101,7 @@ impl NumberField {
 
     fn root_of_unity(&self, field: Field) -> Option<Residue> {
         let primes: Vec<u64> = factor(self.order).into_iter().map(|(q, _)| q).collect();
-        (2..1 << 16)
-            .map(|g| field.pow(field.from_i64(g), (field.modulus() - 1) / self.order))
-            .find(|&z| {
-                primes
-                    .iter()
-                    .all(|q| field.pow(z, self.order / q) != field.one())
-            })
+        root_of_unity(field, self.order, &primes)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::class::{NumberClass, NumberKind};
 use crate::geom::expr::Expr;
+use ozols_dense::norm;
 
 /// The numbers from which positions are calculated, as written.
 #[derive(Debug, Default)]
@@ -47,7 +48,7 @@ impl Sources {
         let turn = |e: &Expr| directions.of_long(e, NumberKind::Direction);
         let of = |v: &Vec<Expr>| {
             let real: Vec<f64> = v.iter().map(Expr::to_f64).collect();
-            let norm = real.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let norm = norm(&real);
             let halves = directions.direction(v);
             let most = halves.into_iter().fold(0.0, f64::max);
             if norm > 0.0 { most / norm } else { 0.0 }

@@ -3,60 +3,12 @@
 use crate::closure::{Closure, Column};
 use crate::linalg::modp::Residue;
 use crate::model::mechanism::JointId;
+use fixedbitset::FixedBitSet;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Number of contours up to which a linear scan is faster than a heap.
 const FEW: usize = 12;
-
-/// A set of contours for each contour, as rows of bits.
-pub(in crate::rank) struct Sets {
-    words: usize,
-    bits: Vec<u64>,
-}
-
-impl Sets {
-    fn new(k: usize) -> Sets {
-        let words = k.div_ceil(64);
-        Sets {
-            words,
-            bits: vec![0; k * words],
-        }
-    }
-
-    fn insert(&mut self, of: usize, x: usize) {
-        self.bits[of * self.words + x / 64] |= 1 << (x % 64);
-    }
-
-    fn remove(&mut self, of: usize, x: usize) {
-        self.bits[of * self.words + x / 64] &= !(1 << (x % 64));
-    }
-
-    fn row(&self, of: usize) -> &[u64] {
-        &self.bits[of * self.words..(of + 1) * self.words]
-    }
-
-    pub(in crate::rank) fn len(&self, of: usize) -> usize {
-        self.row(of).iter().map(|w| w.count_ones() as usize).sum()
-    }
-
-    fn join(&mut self, of: usize, with: usize) {
-        for w in 0..self.words {
-            self.bits[of * self.words + w] |= self.bits[with * self.words + w];
-        }
-    }
-
-    /// Calls `visit` with each member, ascending.
-    pub(in crate::rank) fn each(&self, of: usize, mut visit: impl FnMut(usize)) {
-        for (w, &word) in self.row(of).iter().enumerate() {
-            let mut left = word;
-            while left != 0 {
-                visit(w * 64 + left.trailing_zeros() as usize);
-                left &= left - 1;
-            }
-        }
-    }
-}
 
 /// Plan of the elimination, made before any arithmetic. A coupling takes part as one more contour, whose rows are zero
 /// except for the first.
@@ -72,7 +24,7 @@ pub(in crate::rank) struct EliminationPlan {
     /// For each contour, a number that increases along the order.
     pub(in crate::rank) place: Vec<usize>,
     /// For each contour, the other contours that have rows in its front.
-    pub(in crate::rank) neighbours: Sets,
+    pub(in crate::rank) neighbours: Vec<FixedBitSet>,
 }
 
 impl EliminationPlan {
@@ -118,12 +70,12 @@ impl EliminationPlan {
         }
         passes_from.rotate_right(1);
         passes_from[0] = 0;
-        let mut neighbours = Sets::new(k);
+        let mut neighbours = vec![FixedBitSet::with_capacity(k); k];
         for j in 0..joints {
             let of = &passes[passes_from[j]..passes_from[j + 1]];
             for &(a, _) in of {
                 for &(b, _) in of.iter().filter(|(b, _)| *b != a) {
-                    neighbours.insert(a, b);
+                    neighbours[a].insert(b);
                 }
             }
         }
@@ -157,12 +109,11 @@ impl EliminationPlan {
 
 /// Returns the elimination order, and for each contour a number that increases along it. Each set is reduced to the
 /// neighbours that the contour has when it is eliminated.
-fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> (Vec<usize>, Vec<usize>) {
+fn fewest_neighbours_first(k: usize, neighbours: &mut [FixedBitSet]) -> (Vec<usize>, Vec<usize>) {
     // Greater than any degree.
     const DONE: usize = usize::MAX / 2;
-    let mut degree: Vec<usize> = (0..k).map(|c| neighbours.len(c)).collect();
+    let mut degree: Vec<usize> = neighbours.iter().map(|n| n.count_ones(..)).collect();
     let mut order = Vec::with_capacity(k);
-    let mut near = Vec::with_capacity(k.min(64));
     let mut heap = BinaryHeap::new();
     if k > FEW {
         heap.extend(degree.iter().enumerate().map(|(c, &d)| Reverse((d, c))));
@@ -178,13 +129,12 @@ fn fewest_neighbours_first(k: usize, neighbours: &mut Sets) -> (Vec<usize>, Vec<
         };
         degree[c] = DONE + order.len();
         order.push(c);
-        near.clear();
-        neighbours.each(c, |n| near.push(n));
-        for &n in &near {
-            neighbours.join(n, c);
-            neighbours.remove(n, n);
-            neighbours.remove(n, c);
-            let now = neighbours.len(n);
+        let near = neighbours[c].clone();
+        for n in near.ones() {
+            neighbours[n].union_with(&near);
+            neighbours[n].set(n, false);
+            neighbours[n].set(c, false);
+            let now = neighbours[n].count_ones(..);
             if now != degree[n] {
                 degree[n] = now;
                 if k > FEW {

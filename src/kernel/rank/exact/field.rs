@@ -1,8 +1,10 @@
 //! The prime fields in which the coordinates of a mechanism have values.
 
+use crate::closure::Closure;
 use crate::closure::coupling::{coefficient, coefficients, length_ratio};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::geom::expr::Expr;
+use crate::linalg::modp::Residue;
 use crate::model::mechanism::{Frame, JointOption, Mechanism, Mode, StateId};
 
 /// Returns the coordinates of a joint's frame.
@@ -38,6 +40,20 @@ pub fn field_of(
     let couplings = coefficients(mechanism, state);
     let of_frames = frames.flat_map(coordinates);
     ExactField::for_expressions(of_frames.chain(normal(mechanism)).chain(&couplings), nth)
+}
+
+/// Returns the exact field of the joints present in a state, and J of the state in it.
+///
+/// # Errors
+/// Returns an error if no prime is suitable, see [`ExactField`].
+pub(crate) fn closure_of(
+    mechanism: &Mechanism,
+    state: StateId,
+    nth: usize,
+) -> Result<(ExactField, Closure<Residue>), ExactError> {
+    let exact = field_of(mechanism, state, nth)?;
+    let closure = Closure::new(&exact, mechanism, state)?;
+    Ok((exact, closure))
 }
 
 /// Returns the exact field of a mechanism for all its coordinates, in the `nth` suitable prime.

@@ -160,23 +160,18 @@ impl<'a> Kernel<'a> {
             if used >= self.budget.primes {
                 return Err(NoCertificate::TooManyPrimes { primes: used });
             }
-            let Some(views) = self.views(&splitting) else {
+            let views = self.views(&splitting);
+            let worse = |views: &Views| {
+                let found = self.found.as_ref();
+                found.is_some_and(|(p, _)| *p != views.pivots && views.pivots.worse_than(p))
+            };
+            let Some(views) = views.filter(|views| !worse(views)) else {
                 bad += 1;
                 if bad > MAX_BAD_PRIMES {
                     break;
                 }
                 continue;
             };
-            if let Some((pivots, _)) = &self.found
-                && *pivots != views.pivots
-                && views.pivots.worse_than(pivots)
-            {
-                bad += 1;
-                if bad > MAX_BAD_PRIMES {
-                    break;
-                }
-                continue;
-            }
             if self
                 .found
                 .as_ref()
@@ -391,27 +386,16 @@ fn free_columns(pivots: &[usize], width: usize) -> impl Iterator<Item = usize> {
     (0..width).filter(move |c| pivots.binary_search(c).is_err())
 }
 
-/// Inverts a square matrix by Gauss-Jordan elimination, in O(n³). Returns `None` if it is singular.
-fn inverted(f: Field, mut m: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
+/// Inverts a square matrix, in O(n³). Returns `None` if it is singular.
+fn inverted(f: Field, m: Vec<Vec<Residue>>) -> Option<Vec<Vec<Residue>>> {
     let size = m.len();
-    for (i, row) in m.iter_mut().enumerate() {
+    let beside_unit = m.into_iter().enumerate().map(|(i, mut row)| {
         row.resize(2 * size, f.zero());
         row[size + i] = f.one();
-    }
-    for c in 0..size {
-        let r = (c..size).find(|&r| m[r][c] != 0)?;
-        m.swap(c, r);
-        let scale = f.inv(m[c][c]);
-        m[c].iter_mut().for_each(|x| *x = f.mul(*x, scale));
-        let pivot = m[c].clone();
-        for row in m
-            .iter_mut()
-            .enumerate()
-            .filter(|(r, _)| *r != c)
-            .map(|(_, row)| row)
-        {
-            f.subtract_multiple(&mut row[c..], &pivot[c..]);
-        }
-    }
-    Some(m.into_iter().map(|row| row[size..].to_vec()).collect())
+        row
+    });
+    let span = Echelon::of(f, beside_unit);
+    let regular = span.pivots().into_iter().eq(0..size);
+    let rows = span.reduced().into_iter();
+    regular.then(|| rows.map(|row| row[size..].to_vec()).collect())
 }

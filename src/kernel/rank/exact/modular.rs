@@ -21,8 +21,8 @@ use crate::geom::exact::ExactField;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::elimination_order::EliminationPlan;
-use crate::rank::exact::field::field_of;
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::rank::exact::field::closure_of;
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 
 /// Returns the rank of J over the field. It is exact unless the prime divides a minor.
 ///
@@ -79,13 +79,13 @@ impl Work<'_> {
         self.rest[c].slot = 0;
         let mut height = dim;
         let mut next: Option<usize> = None;
-        plan.neighbours.each(c, |n| {
+        for n in plan.neighbours[c].ones() {
             self.rest[n].slot = height;
             height += dim;
             if next.is_none_or(|x| plan.place[n] < plan.place[x]) {
                 next = Some(n);
             }
-        });
+        }
         self.front.clear();
         let joints = || {
             let contour = closure.contours.get(c).into_iter();
@@ -129,16 +129,13 @@ impl Work<'_> {
         let mut child = self.rest[c].child;
         while let Some(x) = child {
             let (from, to) = self.rest[x].columns;
-            let width = plan.neighbours.len(x) * dim;
+            let width = plan.neighbours[x].count_ones(..) * dim;
             for column in self.left[from..to].chunks_exact(width) {
                 let at = self.front.len();
                 self.front.resize(at + height, 0);
-                let mut from = column.chunks_exact(dim);
-                plan.neighbours.each(x, |n| {
-                    if let Some(block) = from.next() {
-                        self.front[at + self.rest[n].slot..][..dim].copy_from_slice(block);
-                    }
-                });
+                for (block, n) in column.chunks_exact(dim).zip(plan.neighbours[x].ones()) {
+                    self.front[at + self.rest[n].slot..][..dim].copy_from_slice(block);
+                }
             }
             child = self.rest[x].sibling;
         }
@@ -246,13 +243,8 @@ impl MobilityMethod for Modular {
         }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let exact = field_of(mechanism, state, 0)?;
-        let closure = Closure::new(&exact, mechanism, state)?;
-        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-        Ok(Answer {
-            mobility: int(closure.columns.len()) - int(rank(&exact, &closure)),
-            quantity: Quantity::Instantaneous,
-            certainty: Certainty::Exact,
-        })
+        let (exact, closure) = closure_of(mechanism, state, 0)?;
+        let (freedoms, rank) = (closure.columns.len(), rank(&exact, &closure));
+        Ok(Answer::at_pose(freedoms, rank, Certainty::Exact))
     }
 }

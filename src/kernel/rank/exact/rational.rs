@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::certificate::{matrix, number_field};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ};
 use crate::verify::matrix::MatrixOverRing;
 
 /// Returns the rank of a matrix of rational numbers, or `None` if an entry is not rational.
@@ -69,11 +69,6 @@ impl MobilityMethod for Rational {
             .map_err(|_| NoAnswer::DoesNotApply("coordinates are not rational"))?;
         let matrix = matrix(&field, mechanism, state)?;
         let rank = rank(&matrix).ok_or(NoAnswer::DoesNotApply("coordinates are not rational"))?;
-        let int = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
-        Ok(Answer {
-            mobility: int(matrix.columns()) - int(rank),
-            quantity: Quantity::Instantaneous,
-            certainty: Certainty::Exact,
-        })
+        Ok(Answer::at_pose(matrix.columns(), rank, Certainty::Exact))
     }
 }

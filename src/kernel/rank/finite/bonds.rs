@@ -15,15 +15,13 @@
 //! robot that only turns about z may be able to turn otherwise, but do not. The mobility found is then a lower bound.
 
 use crate::closure::Closure;
+use crate::closure::tree::forest;
+use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, relations};
+use crate::linalg::echelon::{Echelon, combination, rank, relations};
 use crate::linalg::modp::Residue;
-use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{LinkId, Mechanism, Mode};
-use crate::rank::finite::displacement_group::{bracket, spatial_twists};
-
-mod narrow;
-mod parallelogram;
+use crate::rank::finite::displacement_group::{is_group, passed_twists};
 
 type Twist = Vec<Residue>;
 
@@ -88,12 +86,7 @@ pub fn mobility(
     }
     let mut chains = Vec::new();
     for j in mechanism.joints_in(closure.state) {
-        let joint_type = &mechanism.joints[j].joint_type;
-        let order = joint_type.passed();
-        let twists = spatial_twists(exact, mechanism, j)?;
-        let listed = joint_type.freedoms().iter().copied();
-        let mut passed: Vec<(Freedom, Twist)> = listed.zip(twists).collect();
-        passed.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
+        let passed = passed_twists(exact, mechanism, j)?;
         chains.push(Chain {
             ends: mechanism.joints[j].links,
             parts: passed
@@ -237,18 +230,8 @@ impl Bonds<'_> {
             }
         }
         let inside = |p: &BondPart| p.within.iter().all(|t| span.contains(t));
-        let group = parts.iter().all(inside) && self.is_algebra(&basis);
+        let group = parts.iter().all(inside) && is_group(self.exact, &basis);
         group.then(|| basis.into_iter().cloned().collect())
-    }
-
-    /// Returns true if some independent twists span an algebra.
-    fn is_algebra(&self, basis: &[&Twist]) -> bool {
-        let mut span = Echelon::new(self.exact.field());
-        basis.iter().all(|t| span.insert(t))
-            && basis.iter().enumerate().all(|(i, a)| {
-                let mut before = basis[..i].iter();
-                before.all(|b| span.contains(&bracket(self.exact, a, b)))
-            })
     }
 }
 
@@ -256,18 +239,152 @@ impl Bonds<'_> {
 pub(in crate::rank) fn common(exact: &ExactField, a: &[Twist], b: &[Twist]) -> Vec<Twist> {
     let field = exact.field();
     let both: Vec<Twist> = a.iter().chain(b).cloned().collect();
-    relations(field, &both)
-        .into_iter()
-        .map(|combination| {
-            let mut sum = vec![0; 6];
-            for (&x, t) in combination.iter().zip(a) {
-                for (s, &y) in sum.iter_mut().zip(t) {
-                    *s = field.add(*s, field.mul(x, y));
+    let relations = relations(field, &both);
+    let of_first = |factors: &Vec<Residue>| combination(field, a, &factors[..a.len()]);
+    relations.iter().map(of_first).collect()
+}
+
+impl Bonds<'_> {
+    /// Replaces two bars of a parallelogram by one part that slides on a circle.
+    fn parallelogram(&mut self) -> bool {
+        for b in 0..self.chains.len() {
+            for a in 0..b {
+                let other = &self.chains[b];
+                let other = match other.clone() {
+                    c if c.ends == self.chains[a].ends => c,
+                    c => c.reversed(),
+                };
+                if let Some(part) = self.circle(&self.chains[a], &other) {
+                    self.chains[a].parts = vec![part];
+                    self.chains.remove(b);
+                    return true;
                 }
             }
-            sum
+        }
+        false
+    }
+
+    /// Returns the slide on a circle of two chains that are bars of a parallelogram.
+    fn circle(&self, a: &Chain, b: &Chain) -> Option<BondPart> {
+        if a.ends != b.ends || a.is_closed() {
+            return None;
+        }
+        let [near, far] = self.hinges(a)?;
+        let [near_too, far_too] = self.hinges(b)?;
+        let field = self.exact.field();
+        let difference = |x: &Twist, y: &Twist| -> Twist {
+            x.iter().zip(y).map(|(&x, &y)| field.sub(x, y)).collect()
+        };
+        let (along, across) = (difference(&near, &far), difference(&near, &near_too));
+        // The axes must be parallel, the bars equal, and the points not all on a line.
+        let slides = |t: &Twist| t[..3].iter().all(|&x| x == 0);
+        let equal = along == difference(&near_too, &far_too);
+        let apart = rank(field, [&along[..], &across[..]]) == 2;
+        (slides(&along) && slides(&across) && equal && apart).then(|| BondPart {
+            span: vec![along.clone()],
+            within: vec![along, across],
         })
-        .collect()
+    }
+
+    /// Returns the twists of a chain of two hinges about parallel axes, with the same angular velocity.
+    fn hinges(&self, chain: &Chain) -> Option<[Twist; 2]> {
+        let [first, second] = &chain.parts[..] else {
+            return None;
+        };
+        let field = self.exact.field();
+        let turn = |part: &BondPart| -> Option<Twist> {
+            let [twist] = &part.span[..] else {
+                return None;
+            };
+            let (w, v) = (
+                [twist[0], twist[1], twist[2]],
+                [twist[3], twist[4], twist[5]],
+            );
+            let of = w.into_iter().find(|&x| x != 0)?;
+            let hinge = part.is_group() && self.exact.dot(w, v) == 0;
+            let scale = field.inv(of);
+            hinge.then(|| twist.iter().map(|&x| field.mul(scale, x)).collect())
+        };
+        Some([turn(first)?, turn(second)?])
+    }
+
+    /// Restricts groups of which every instantaneous motion uses only a subgroup.
+    fn narrow(&mut self) -> bool {
+        let motions = relations(self.exact.field(), &self.columns());
+        let mut narrowed = false;
+        let mut at = 0;
+        for c in 0..self.chains.len() {
+            let mut kept = Vec::new();
+            for part in self.chains[c].parts.clone() {
+                let width = part.span.len();
+                let used = self.used(&part, motions.iter().map(|m| &m[at..at + width]));
+                at += width;
+                let fewer = used.len() < width && (part.is_group() || used.is_empty());
+                if fewer && is_group(self.exact, &used) {
+                    narrowed = true;
+                    if !used.is_empty() {
+                        kept.push(BondPart::group(used));
+                    }
+                } else {
+                    kept.push(part);
+                }
+            }
+            self.chains[c].parts = kept;
+        }
+        narrowed
+    }
+
+    /// Returns a basis of the twists of a part in some motions, given by the weights of its twists.
+    fn used<'a>(
+        &self,
+        part: &BondPart,
+        motions: impl Iterator<Item = &'a [Residue]>,
+    ) -> Vec<Twist> {
+        let field = self.exact.field();
+        let mut span = Echelon::new(field);
+        motions
+            .map(|weights| combination(field, &part.span, weights))
+            .filter(|t| span.insert(t))
+            .collect()
+    }
+
+    /// Returns the columns of the closure matrix of the chains: six rows for each chain outside a spanning forest.
+    fn columns(&self) -> Vec<Vec<Residue>> {
+        let field = self.exact.field();
+        let links = self.chains.iter().map(|c| c.ends.map(LinkId::index));
+        let nodes = links.clone().flatten().max().map_or(0, |l| l + 1);
+        let starts = links.clone().map(|ends| ends[0]);
+        // For each link, the chains from a root to it, each with its direction of passage.
+        let mut paths: Vec<Vec<(usize, i32)>> = vec![Vec::new(); nodes];
+        let mut closing: Vec<usize> = (0..self.chains.len()).collect();
+        for step in forest(nodes, links, |_| false, starts).1 {
+            let sign = if step.forward { 1 } else { -1 };
+            paths[step.link] = [&paths[step.from][..], &[(step.joint, sign)]].concat();
+            closing.retain(|&c| c != step.joint);
+        }
+        let mut columns = Vec::new();
+        for (c, chain) in self.chains.iter().enumerate() {
+            let signs: Vec<i32> = closing
+                .iter()
+                .map(|&k| {
+                    let [from, to] = self.chains[k].ends;
+                    let of = |l: LinkId| paths[l].iter().find(|p| p.0 == c).map_or(0, |p| p.1);
+                    i32::from(c == k) + of(from) - of(to)
+                })
+                .collect();
+            for twist in chain.parts.iter().flat_map(|p| &p.span) {
+                let column = signs.iter().flat_map(|&sign| {
+                    twist.iter().map(move |&x| match sign {
+                        0 => 0,
+                        1 => x,
+                        _ => field.neg(x),
+                    })
+                });
+                columns.push(column.collect());
+            }
+        }
+        columns
+    }
 }
 
 #[cfg(test)]

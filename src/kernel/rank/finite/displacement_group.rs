@@ -10,13 +10,15 @@
 //! additional linear maps of the joints' coordinates, and the rank of their rows is added to the product.
 
 use crate::closure::contour::Contour;
-use crate::closure::twist::FrameValues;
+use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
 use crate::closure::{Closure, Column};
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::{Echelon, rank, relations};
+use crate::linalg::echelon::{Echelon, combination, relations};
 use crate::linalg::modp::Residue;
+use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+use itertools::Itertools;
 
 /// Returns the bracket of two twists, [ω1 × ω2; ω1 × v2 + v1 × ω2].
 pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue]) -> Vec<Residue> {
@@ -30,14 +32,11 @@ pub(in crate::rank) fn bracket(exact: &ExactField, a: &[Residue], b: &[Residue])
 }
 
 /// Returns true if the successive displacements of some independent twists are all those of a group.
-pub(in crate::rank) fn is_group(exact: &ExactField, twists: &[Vec<Residue>]) -> bool {
+pub(in crate::rank) fn is_group<T: AsRef<[Residue]>>(exact: &ExactField, twists: &[T]) -> bool {
     let mut span = Echelon::new(exact.field());
-    twists.iter().all(|t| span.insert(t))
-        && twists.iter().enumerate().all(|(i, a)| {
-            twists[..i]
-                .iter()
-                .all(|b| span.contains(&bracket(exact, a, b)))
-        })
+    let mut pairs = twists.iter().tuple_combinations();
+    twists.iter().all(|t| span.insert(t.as_ref()))
+        && pairs.all(|(a, b)| span.contains(&bracket(exact, a.as_ref(), b.as_ref())))
 }
 
 /// Returns the six-component twists of a joint's freedoms, restricted to those that planar mode keeps.
@@ -56,6 +55,20 @@ pub(in crate::rank) fn spatial_twists(
         .collect())
 }
 
+/// Returns the freedoms of a joint with their twists, in the order of passage from its first link.
+pub(in crate::rank) fn passed_twists(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joint: JointId,
+) -> Result<Vec<(Freedom, Vec<Residue>)>, ExactError> {
+    let twists = spatial_twists(exact, mechanism, joint)?;
+    let joint_type = &mechanism.joints[joint].joint_type;
+    let order = joint_type.passed();
+    let mut passed: Vec<_> = joint_type.freedoms().iter().copied().zip(twists).collect();
+    passed.sort_by_key(|(f, _)| order.iter().position(|g| g == f));
+    Ok(passed)
+}
+
 /// Returns the dimension of the group that a contour's displacements generate. It is at most 3 in planar mode.
 ///
 /// # Errors
@@ -68,21 +81,14 @@ pub(crate) fn group_dimension(
     mechanism: &Mechanism,
     contour: &Contour,
 ) -> Result<usize, ExactError> {
-    if let Mode::Planar { normal } = &mechanism.mode {
+    if let Mode::Planar { .. } = &mechanism.mode {
         // There are three rows: turning about the normal and sliding across it. Slides commute with each other.
-        let space = crate::closure::twist::MotionSpace::new(
-            exact,
-            &Mode::Planar {
-                normal: normal.clone(),
-            },
-        )?;
+        let space = MotionSpace::new(exact, &mechanism.mode)?;
         let mut algebra = Echelon::new(exact.field());
         let mut turning = false;
         for &(j, _) in &contour.joints {
             let joint = &mechanism.joints[j];
-            for (_, t) in
-                crate::closure::twist::joint_twists(exact, &space, &joint.frame, &joint.joint_type)?
-            {
+            for (_, t) in joint_twists(exact, &space, &joint.frame, &joint.joint_type)? {
                 turning |= t[0] != 0;
                 algebra.insert(&t);
             }
@@ -95,22 +101,6 @@ pub(crate) fn group_dimension(
         });
     }
     Ok(algebra(exact, mechanism, contour.joints.iter().map(|&(j, _)| j))?.len())
-}
-
-/// Returns the rank of the rows of the couplings only.
-pub(in crate::rank) fn coupling_rank(exact: &ExactField, closure: &Closure<Residue>) -> usize {
-    let rows: Vec<Vec<Residue>> = closure
-        .couplings
-        .iter()
-        .map(|coupling| {
-            let mut row = vec![0; closure.columns.len()];
-            for &(c, x) in &coupling.entries {
-                row[c] = x;
-            }
-            row
-        })
-        .collect();
-    rank(exact.field(), rows.iter().map(Vec::as_slice))
 }
 
 /// Returns a basis of the Lie algebra that the twists of some joints generate.
@@ -270,24 +260,14 @@ pub(in crate::rank) fn group_of(
     joints: impl IntoIterator<Item = JointId>,
 ) -> Result<DisplacementGroup, ExactError> {
     let basis = algebra(exact, mechanism, joints)?;
-    let mut turns = Echelon::new(exact.field());
-    for t in &basis {
-        turns.insert(&t[..3]);
-    }
+    let field = exact.field();
+    let turns = Echelon::of(field, basis.iter().map(|t| &t[..3]));
     // Combinations without a turn are the slides.
     let parts: Vec<Vec<Residue>> = basis.iter().map(|t| t[..3].to_vec()).collect();
-    let field = exact.field();
     let slides: Vec<[Residue; 3]> = relations(field, &parts)
-        .into_iter()
-        .map(|c| {
-            let mut v = [0; 3];
-            for (a, t) in c.iter().zip(&basis) {
-                for k in 0..3 {
-                    v[k] = field.add(v[k], field.mul(*a, t[3 + k]));
-                }
-            }
-            v
-        })
+        .iter()
+        .map(|factors| combination(field, &basis, factors))
+        .map(|t| [t[3], t[4], t[5]])
         .collect();
     let axis = turns
         .reduced()

@@ -14,7 +14,6 @@
 //! With m = n nothing moves. For n = 1 that is shakiness of order d - 1, for d = 2 the second-order test of Connelly &
 //! Whiteley 1996.
 
-mod gap;
 mod line;
 
 pub use line::Line;
@@ -23,12 +22,13 @@ use crate::closure::Closure;
 use crate::closure::twist::MotionSpace;
 use crate::geom::Scalars;
 use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
 use crate::model::mechanism::Mechanism;
+use crate::motion::displacement_series::{self, Series, hat};
 use crate::motion::pose::Pose;
-use crate::rank::finite::higher_order::gap::gaps;
 use crate::rank::finite::higher_order::line::Solved;
-use crate::rank::finite::power_series::{Monomials, accumulate};
+use crate::rank::finite::power_series::Monomials;
 
 /// Number of entries of J² up to which series are used.
 const LARGEST: usize = 40_000;
@@ -83,11 +83,14 @@ impl HigherOrder {
             .map(|c| in_space(exact, &space, &c.twist))
             .collect();
         let walks = walks(closure, pose);
-        let mut matrix = beside_unit(field, closure, &twists, &walks);
-        let pivots = reduce(field, &mut matrix, f);
+        let span = Echelon::of(field, beside_unit(field, closure, &twists, &walks));
+        // Pivots beyond J belong to its dependent rows.
+        let mut pivots = span.pivots();
+        pivots.retain(|&p| p < f);
         if pivots.len() != rank {
             return Ok(None);
         }
+        let matrix = span.reduced();
         let free = (0..f)
             .filter(|c| !pivots.contains(c))
             .map(|c| (c, (0..rank).map(|i| field.neg(matrix[i][c])).collect()))
@@ -305,30 +308,83 @@ fn beside_unit(
     matrix
 }
 
-/// Brings a matrix to reduced row echelon form in place, by its first `width` columns. Returns the pivot columns, whose
-/// rows come first.
-fn reduce(field: Field, matrix: &mut [Vec<Residue>], width: usize) -> Vec<usize> {
-    let mut pivots = Vec::new();
-    for c in 0..width {
-        let at = pivots.len();
-        let Some(found) = (at..matrix.len()).find(|&r| matrix[r][c] != 0) else {
-            continue;
-        };
-        matrix.swap(at, found);
-        let scale = field.inv(matrix[at][c]);
-        matrix[at]
-            .iter_mut()
-            .for_each(|x| *x = field.mul(*x, scale));
-        let row = matrix[at].clone();
-        for (_, other) in matrix
-            .iter_mut()
-            .enumerate()
-            .filter(|(r, other)| *r != at && other[c] != 0)
-        {
-            let by = field.neg(other[c]);
-            accumulate(field, other, &row, by);
+/// A displacement whose entries are series: three rows of a rotation, each followed by its component of the translation.
+type SeriesMotion = [[Series; 4]; 3];
+
+/// Returns the six gaps of a contour, given by its columns with their directions, if the coordinates `q` of these
+/// columns are series.
+fn gaps(
+    f: Field,
+    twists: &[Vec<Residue>],
+    walk: &[(usize, bool)],
+    q: &[Series],
+    monomials: &Monomials,
+) -> Vec<Series> {
+    let mut at = identity(f, monomials);
+    for &(c, forward) in walk {
+        if q[c].iter().any(|&x| x != 0) {
+            let signed = |&x: &Residue| if forward { x } else { f.neg(x) };
+            let angle: Series = q[c].iter().map(signed).collect();
+            at = product(f, &at, &exp(f, &twists[c], &angle, monomials), monomials);
         }
-        pivots.push(c);
     }
-    pivots
+    // Rotation and translation vanish if and only if the displacement does.
+    let half = f.inv(f.from_i64(2));
+    let skew = |i: usize, j: usize| -> Series {
+        let differences = at[i][j].iter().zip(&at[j][i]);
+        differences
+            .map(|(&a, &b)| f.mul(half, f.sub(a, b)))
+            .collect()
+    };
+    let turns = [skew(2, 1), skew(0, 2), skew(1, 0)];
+    turns
+        .into_iter()
+        .chain(at.map(|[.., shift]| shift))
+        .collect()
+}
+
+fn identity(f: Field, monomials: &Monomials) -> SeriesMotion {
+    let mut out: SeriesMotion = Default::default();
+    for (i, row) in out.iter_mut().enumerate() {
+        row.fill(vec![0; monomials.count()]);
+        row[i][0] = f.one();
+    }
+    out
+}
+
+/// Returns the displacement by an angle about a twist, the sum of the powers of the twist's matrix, each times that
+/// power of the angle over its factorial.
+fn exp(f: Field, twist: &[Residue], angle: &Series, monomials: &Monomials) -> SeriesMotion {
+    let mut out = identity(f, monomials);
+    let hat = hat(f, &std::array::from_fn(|i| twist[i]));
+    let (mut matrix, mut power) = (hat, angle.clone());
+    for n in 2.. {
+        let entries = out.iter_mut().flatten().zip(matrix.iter().flatten());
+        entries.for_each(|(entry, &by)| f.add_multiple(entry, by, &power));
+        matrix = displacement_series::product(f, &matrix, &hat);
+        if n > monomials.degree() || matrix == [[0; 4]; 3] {
+            break;
+        }
+        power = monomials.product(f, &power, angle);
+        let part = f.inv(f.from_i64(n as i64));
+        power.iter_mut().for_each(|x| *x = f.mul(*x, part));
+    }
+    out
+}
+
+/// Returns the product of a displacement and another that follows it in the moved frame.
+fn product(f: Field, a: &SeriesMotion, b: &SeriesMotion, monomials: &Monomials) -> SeriesMotion {
+    let entry = |i: usize, j: usize| {
+        let shift = if j == 3 {
+            a[i][3].clone()
+        } else {
+            vec![0; monomials.count()]
+        };
+        (0..3).fold(shift, |mut sum, k| {
+            let more = monomials.product(f, &a[i][k], &b[k][j]);
+            f.add_multiple(&mut sum, f.one(), &more);
+            sum
+        })
+    };
+    [0, 1, 2].map(|i| [0, 1, 2, 3].map(|j| entry(i, j)))
 }

@@ -10,13 +10,14 @@
 //! local dimension [Wampler, Hauenstein & Sommese 2011]. The result is numeric and is marked as such: nothing is proven. Random
 //! directions come from a fixed seed.
 
-mod continuation;
+pub(in crate::rank::finite) mod continuation;
 
+use crate::motion::close::Newton;
 use crate::motion::pose::Pose;
-use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, norm};
+use crate::rank::finite::tangent_cone::{self, Flat, Quadrics};
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
-use ozols_dense::{Matrix, least_squares, svd};
+use ozols_dense::{Matrix, difference, dot, norm, svd};
 
 /// Lengths of trial steps at a pose that may be regular: radians, and fractions of the mechanism's size.
 const STEPS: [f64; 3] = [0.2, 0.08, 0.03];
@@ -75,18 +76,6 @@ pub fn motions(pose: &Pose) -> Matrix {
     Flat::new(pose, None).kernel
 }
 
-/// Returns a linear combination of columns.
-fn along(span: &Matrix, weights: &[f64]) -> Vec<f64> {
-    let row = |r: usize| {
-        weights
-            .iter()
-            .enumerate()
-            .map(|(c, w)| span[(r, c)] * w)
-            .sum()
-    };
-    (0..span.nrows()).map(row).collect()
-}
-
 /// Dimensions found and not excluded.
 #[derive(Debug, Clone, Copy)]
 struct DimensionsFound {
@@ -133,65 +122,31 @@ impl DimensionSearch {
     }
 
     /// Returns coordinates near `q` that satisfy all equations best, with the remaining gap. Returns `None` if the budget is spent.
-    fn close(
-        &mut self,
-        pose: &Pose,
-        mut q: Vec<f64>,
-        beside: Beside<'_>,
-    ) -> Option<(Vec<f64>, f64)> {
+    fn close(&mut self, pose: &Pose, q: Vec<f64>, beside: Beside<'_>) -> Option<(Vec<f64>, f64)> {
         if self.poses >= self.budget {
             return None;
         }
         self.poses += 1;
-        let f = q.len();
-        let mut best = (q.clone(), f64::INFINITY);
-        let mut history: Vec<f64> = Vec::new();
-        for _ in 0..NEWTON {
-            let more = beside(&q);
-            let mut gaps = pose.gaps(&q);
-            let rows = gaps.len();
-            gaps.extend(more.iter().map(|(x, _)| x));
-            let gap = norm(&gaps);
-            if !gap.is_finite() {
-                break;
+        let stops = |gaps: &[f64]| match *gaps {
+            [.., before, gap] => {
+                let earlier = gaps.len().checked_sub(11).map(|i| gaps[i]);
+                let stuck = earlier.is_some_and(|earlier| gap > 0.7 * earlier);
+                stuck || (gap < pose.closed() && gap > 0.1 * before)
             }
-            if gap < best.1 {
-                best = (q.clone(), gap);
-            }
-            let stuck = history.len() >= 10 && gap > 0.7 * history[history.len() - 10];
-            if gap < 1e-14
-                || stuck
-                || (gap < pose.closed() && history.last().is_some_and(|h| gap > 0.1 * h))
-            {
-                break;
-            }
-            history.push(gap);
-            let jacobian = pose.jacobian(&q);
-            let damping = gap.clamp(1e-11_f64.max(1e3 * pose.accuracy()).min(1e-2), 1e-2);
-            let all = rows + more.len();
-            let stacked = Matrix::from_fn(all + f, f, |r, c| {
-                if r < rows {
-                    jacobian[(r, c)]
-                } else if r < all {
-                    more[r - rows].1[c]
-                } else if r - all == c {
-                    damping
-                } else {
-                    0.0
-                }
-            });
-            gaps.resize(all + f, 0.0);
-            let step = least_squares(&stacked, &gaps);
-            let length = norm(&step);
-            if !length.is_finite() || length < 1e-16 {
-                break;
-            }
-            let shorten = (0.3 / length).min(1.0);
-            for (x, s) in q.iter_mut().zip(&step) {
-                *x -= shorten * s;
-            }
-        }
-        Some(best)
+            _ => false,
+        };
+        let (q, gap, _) = pose.newton(
+            q,
+            &Newton {
+                hold: &[],
+                beside,
+                steps: NEWTON,
+                longest: 0.3,
+                most: f64::INFINITY,
+                stops: &stops,
+            },
+        );
+        Some((q, gap))
     }
 
     /// Returns whether motions in random directions of some orthonormal columns extend to a distance, or `None` if that is unclear. With
@@ -209,13 +164,12 @@ impl DimensionSearch {
             let mut all = true;
             for _ in 0..(n + 1).min(4) {
                 let x = self.direction(n);
-                let q = along(span, &x).into_iter().map(|v| v * step).collect();
+                let q = span.combined(&x).into_iter().map(|v| v * step).collect();
                 let beside = |q: &[f64]| -> Vec<(f64, Vec<f64>)> {
                     (0..n)
                         .map(|c| {
-                            let row: Vec<f64> = (0..q.len()).map(|r| span[(r, c)]).collect();
-                            let along: f64 = row.iter().zip(q).map(|(a, b)| a * b).sum();
-                            (along - step * x[c], row)
+                            let row = span.col(c);
+                            (dot(row, q) - step * x[c], row.to_vec())
                         })
                         .collect()
                 };
@@ -358,7 +312,7 @@ impl DimensionSearch {
             if best + 1 == n {
                 return best;
             }
-            let start = along(&flat.kernel, x);
+            let start = flat.kernel.combined(x);
             let opposite: Vec<f64> = start.iter().map(|x| -x).collect();
             let found = match self.branch(pose, &start, scale) {
                 Some(None) => self.branch(pose, &opposite, scale),
@@ -417,15 +371,13 @@ struct Branch {
 impl Branch {
     /// Returns the direction from the near coordinates to the far ones.
     fn onward(&self) -> Vec<f64> {
-        let both = self.far.iter().zip(&self.near);
-        both.map(|(f, n)| f - n).collect()
+        difference(&self.far, &self.near)
     }
 }
 
 /// Returns true if two coordinates lie in nearly the same direction.
 fn alike(a: &[f64], b: &[f64]) -> bool {
-    let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-    dot > 0.9 * norm(a) * norm(b)
+    dot(a, b) > 0.9 * norm(a) * norm(b)
 }
 
 #[cfg(test)]

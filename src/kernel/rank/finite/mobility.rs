@@ -1,11 +1,28 @@
-//! A finite mobility and the evidence for it.
+//! A finite mobility with the evidence for it, and its proof by ranks and groups.
+//!
+//! A freedom with speed 0 in every instantaneous motion takes no part in any of them. If it is locked, the null space
+//! of J is as large as before. A proven motion of the locked mechanism is also a motion of the whole mechanism, and no
+//! motion exceeds the instantaneous mobility. So the finite mobility of a pose is proven if it is that of the mechanism
+//! with such freedoms locked. An example is the spatial slider of a planar linkage that could turn about its guide, but
+//! does not.
+
+use crate::closure::Closure;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::{Echelon, transpose};
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::{Freedom, JointType};
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::rank::exact::modular;
+use crate::rank::finite::bonds;
+use crate::rank::finite::displacement_group::group_dimension;
+use itertools::Itertools;
 
 /// Proof that a pose is a regular one of its motion. If several apply, the one with the most conditions comes last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Proof {
     /// J has the full rank of the groups its contours move in and of its couplings.
     Groups,
-    /// J has that rank with the freedoms locked that are at rest to first order, [`crate::rank::finite::at_rest`].
+    /// J has that rank with the freedoms locked that are at rest to first order.
     Resting,
     /// Chains and legs reduce to single joints, [`crate::rank::finite::bonds`].
     Bonds,
@@ -105,6 +122,11 @@ impl Finite {
             how,
             numeric: false,
         }
+    }
+
+    /// Creates the proven result for a regular pose whose J has rank `dimension`.
+    pub(super) fn regular(mobility: usize, dimension: usize, by: Proof) -> Finite {
+        Finite::new(mobility, How::Submersion { dimension, by })
     }
 
     /// Creates the result for rounded coordinates that only give an upper bound `to` on the instantaneous mobility.
@@ -245,53 +267,72 @@ impl Finite {
         use How::{Bound, Rigid, Rounded, Singular, Stopped, Submersion, Traced, Undecided};
         let from = self.mobility + other.mobility;
         let to = self.at_most() + other.at_most();
-        let how = match (self.how, other.how) {
-            (Rounded { .. }, _) | (_, Rounded { .. }) => Rounded { to },
-            (Undecided { .. }, _) | (_, Undecided { .. }) => Undecided { from, to },
-            (Rigid, how) | (how, Rigid) => how,
+        // The one that leaves more open decides.
+        let openness = |f: &Finite| match f.how {
+            Rigid => 0,
+            Submersion { .. } => 1,
+            Stopped { .. } => 2,
+            Singular { .. } => 3,
+            Traced { .. } => 4,
+            Bound { .. } => 5,
+            Undecided { .. } => 6,
+            Rounded { .. } => 7,
+        };
+        let (open, clear) = if openness(&self) < openness(&other) {
+            (other.how, self.how)
+        } else {
+            (self.how, other.how)
+        };
+        let how = match (open, clear) {
+            (Rounded { .. }, _) => Rounded { to },
+            (Undecided { .. }, _) => Undecided { from, to },
+            (how, Rigid) => how,
+            (Bound { .. }, _) => Bound { to },
             (
-                Submersion { dimension, by },
                 Submersion {
-                    dimension: more,
-                    by: too,
+                    dimension: a,
+                    by: x,
                 },
-            ) => Submersion {
-                dimension: dimension + more,
-                by: by.max(too),
-            },
-            (Bound { .. }, _) | (_, Bound { .. }) => Bound { to },
+                Submersion {
+                    dimension: b,
+                    by: y,
+                },
+            ) => {
+                let (dimension, by) = (a + b, x.max(y));
+                Submersion { dimension, by }
+            }
             (
-                Traced { poses, regular },
                 Traced {
-                    poses: more,
-                    regular: too,
+                    poses: a,
+                    regular: x,
                 },
-            ) => Traced {
-                poses: poses + more,
-                regular: regular && too,
-            },
-            (Traced { poses, .. }, Stopped { .. } | Singular { .. })
-            | (Stopped { .. } | Singular { .. }, Traced { poses, .. }) => Traced {
-                poses,
-                regular: false,
-            },
-            (Singular { order }, Singular { order: other }) => Singular {
-                order: order.max(other),
-            },
-            (how @ Singular { .. }, Submersion { .. } | Stopped { .. })
-            | (Submersion { .. } | Stopped { .. }, how @ Singular { .. }) => how,
-            (how @ (Traced { .. } | Stopped { .. }), Submersion { .. })
-            | (Submersion { .. }, how @ (Traced { .. } | Stopped { .. })) => how,
+                Traced {
+                    poses: b,
+                    regular: y,
+                },
+            ) => {
+                let (poses, regular) = (a + b, x && y);
+                Traced { poses, regular }
+            }
+            (Traced { poses, .. }, Stopped { .. } | Singular { .. }) => {
+                let regular = false;
+                Traced { poses, regular }
+            }
+            (Singular { order: a }, Singular { order: b }) => Singular { order: a.max(b) },
             (
-                Stopped { order, motions },
                 Stopped {
-                    order: other,
-                    motions: more,
+                    order: a,
+                    motions: x,
                 },
-            ) => Stopped {
-                order: order.max(other),
-                motions: motions + more,
-            },
+                Stopped {
+                    order: b,
+                    motions: y,
+                },
+            ) => {
+                let (order, motions) = (a.max(b), x + y);
+                Stopped { order, motions }
+            }
+            (how, _) => how,
         };
         Finite {
             mobility: from,
@@ -299,6 +340,111 @@ impl Finite {
             numeric: self.numeric || other.numeric,
         }
     }
+}
+
+/// Returns what ranks alone prove: that nothing moves, or that all instantaneous motions are finite.
+pub(super) fn by_ranks(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    rank: usize,
+) -> Result<Option<Finite>, ExactError> {
+    let instantaneous = closure.columns.len() - rank;
+    if instantaneous == 0 {
+        return Ok(Some(Finite::new(0, How::Rigid)));
+    }
+    let dimension = dimension(exact, mechanism, closure)?;
+    Ok((rank == dimension).then_some(Finite::regular(instantaneous, rank, Proof::Groups)))
+}
+
+/// Returns the dimension of the groups that all contours move in, and of the couplings.
+pub(super) fn dimension(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Result<usize, ExactError> {
+    // Couplings are linear in the joints' coordinates, so dependent ones stay dependent all along the motion.
+    let couplings = closure.couplings.iter().map(|coupling| {
+        let mut row = vec![0; closure.columns.len()];
+        coupling.entries.iter().for_each(|&(c, x)| row[c] = x);
+        row
+    });
+    let mut dimension = Echelon::of(exact.field(), couplings).rank();
+    for contour in &closure.contours {
+        dimension += group_dimension(exact, mechanism, contour)?;
+    }
+    Ok(dimension)
+}
+
+/// Works as [`by_ranks`], also with the freedoms locked that are at rest to first order, and with chains and legs
+/// reduced to single joints.
+pub(super) fn regular(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    rank: usize,
+) -> Result<Option<Finite>, ExactError> {
+    if let Some(known) = by_ranks(exact, mechanism, closure, rank)? {
+        return Ok(Some(known));
+    }
+    let instantaneous = closure.columns.len() - rank;
+    let moving = match lock_resting(exact, mechanism, closure) {
+        Some(locked) => {
+            let own = Closure::new(exact, &locked, closure.state)?;
+            if let Some(found) = by_ranks(exact, &locked, &own, modular::rank(exact, &own))?
+                && let How::Submersion { dimension, .. } = found.how
+                && found.mobility == instantaneous
+            {
+                return Ok(Some(Finite::regular(
+                    instantaneous,
+                    dimension,
+                    Proof::Resting,
+                )));
+            }
+            bonds::mobility(exact, &locked, &own)?
+        }
+        None => bonds::mobility(exact, mechanism, closure)?,
+    };
+    // The motion with freedoms locked is a lower bound, and the instantaneous motion an upper one.
+    let moving = moving.filter(|&m| m == instantaneous);
+    Ok(moving.map(|m| Finite::regular(m, rank, Proof::Bonds)))
+}
+
+/// Returns the mechanism with every freedom locked that is at rest in all instantaneous motions, or `None` if there are
+/// none.
+///
+/// # Complexity
+/// One elimination of J by rows, O((6k)² f).
+#[must_use]
+fn lock_resting(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+) -> Option<Mechanism> {
+    let rows = Echelon::of(exact.field(), transpose(&closure.dense(exact)));
+    // A row of the reduced form with no entry other than its pivot means that this freedom has speed 0.
+    let alone = |row: &Vec<Residue>| row.iter().positions(|&x| x != 0).exactly_one().ok();
+    let coupled = |c: &usize| {
+        let joint = closure.columns[*c].joint;
+        mechanism.couplings_of(joint).next().is_some()
+    };
+    let rows = rows.reduced();
+    let resting = rows.iter().filter_map(alone).filter(|c| !coupled(c));
+    let resting = resting.map(|c| (closure.columns[c].joint, closure.columns[c].freedom));
+    let resting: Vec<(JointId, Freedom)> = resting.collect();
+    if resting.is_empty() {
+        return None;
+    }
+    let mut out = mechanism.clone();
+    for (j, joint) in mechanism.joint_ids().zip(&mut out.joints) {
+        let all = joint.joint_type.freedoms();
+        let kept = all.iter().copied().filter(|&f| !resting.contains(&(j, f)));
+        let kept: Vec<Freedom> = kept.collect();
+        if kept.len() < all.len() {
+            joint.joint_type = JointType::Custom(kept);
+        }
+    }
+    Some(out)
 }
 
 fn in_words(order: usize) -> String {

@@ -16,19 +16,30 @@
 //! From every contour, as many equations are taken as it adds to the rank. This leaves a curve once further freedoms
 //! are cut off. Any other equation either vanishes on the curve or has a zero at the pose. The order of that zero is at
 //! most what this equation and those taken allow. That is 4 for Bennett's linkage and 36 for six hinges.
-
-mod intersection;
-mod rods;
+//!
+//! A platform may stand on rods that end in balls.
+//!
+//! Its displacements are the points of Study's quadric in seven dimensions, and each rod keeps it on another quadric
+//! [Husty 1996]. So the poses that 6 - n of them allow meet n - 1 hyperplanes and one more quadric in at most 2^(8 - n)
+//! points.
+//!
+//! Suppose the closed poses of a single contour form a manifold with as many dimensions as move at first order. Among
+//! all coordinates its codimension is then the rank of the contour. Manifolds whose ranks add up to that of J meet
+//! transversally. So the poses that close all contours also form a manifold, of dimension f - rank J.
 
 use crate::closure::Closure;
 use crate::closure::contour::Contour;
 use crate::geom::exact::{ExactError, ExactField};
-use crate::linalg::echelon::Echelon;
+use crate::linalg::echelon::{Echelon, transpose};
 use crate::linalg::modp::Residue;
 use crate::model::joint_type::Freedom;
-use crate::model::mechanism::Mechanism;
-use crate::rank::finite::displacement_group::group_dimension;
-use intersection::{Arcs, Class};
+use crate::model::mechanism::{JointId, Mechanism};
+use crate::motion::pose::Pose;
+use crate::rank::exact::modular;
+use crate::rank::finite::displacement_group::{group_dimension, spatial_twists};
+use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
+use crate::rank::finite::independent_parts::alone;
+use crate::rank::finite::mobility::regular;
 
 /// Number of contour orders tried.
 const ORDERS: usize = 6;
@@ -40,7 +51,7 @@ const ORDERS: usize = 6;
 ///
 /// # Complexity
 /// A few eliminations of J, and products of classes with as many terms as sets of freedoms are open at a time.
-pub(super) fn bound(
+fn bound(
     exact: &ExactField,
     mechanism: &Mechanism,
     closure: &Closure<Residue>,
@@ -48,11 +59,11 @@ pub(super) fn bound(
 ) -> Result<Option<usize>, ExactError> {
     let freedoms = closure.columns.len();
     let screws = closure.columns.iter().any(|c| c.freedom == Freedom::Screw);
-    if screws || !closure.couplings.is_empty() || freedoms > intersection::MOST {
+    if screws || !closure.couplings.is_empty() || freedoms > MOST {
         return Ok(None);
     }
     let arcs: Vec<Arcs> = closure.contours.iter().map(|c| arcs(closure, c)).collect();
-    if let Some(order) = rods::bound(exact, mechanism, closure, instantaneous)? {
+    if let Some(order) = bound_of_rods(exact, mechanism, closure, instantaneous)? {
         return Ok(Some(order));
     }
     if let [alone] = &arcs[..] {
@@ -65,12 +76,12 @@ pub(super) fn bound(
     for contour in &closure.contours {
         dimensions.push(group_dimension(exact, mechanism, contour)?);
     }
-    let columns = closure.dense(exact);
+    let rows = transpose(&closure.dense(exact));
     let all = arcs.len();
     let mut least = None;
     for first in 0..all.min(ORDERS) {
         let order: Vec<usize> = (0..all).map(|i| (first + i) % all).collect();
-        let added = added_rank(exact, closure, &columns, &order);
+        let added = added_rank(exact, closure.dim, &rows, &order);
         let found = highest(
             &arcs,
             &dimensions,
@@ -100,19 +111,15 @@ fn arcs(closure: &Closure<Residue>, contour: &Contour) -> Arcs {
 /// Returns what each contour adds to the rank, in the given order.
 fn added_rank(
     exact: &ExactField,
-    closure: &Closure<Residue>,
-    columns: &[Vec<Residue>],
+    dim: usize,
+    rows: &[Vec<Residue>],
     order: &[usize],
 ) -> Vec<usize> {
     let mut span = Echelon::new(exact.field());
     let mut added = vec![0; order.len()];
     for &k in order {
-        let before = span.rank();
-        for r in closure.dim * k..closure.dim * (k + 1) {
-            let row: Vec<Residue> = columns.iter().map(|c| c[r]).collect();
-            span.insert(&row);
-        }
-        added[k] = span.rank() - before;
+        let own = rows[dim * k..dim * (k + 1)].iter();
+        added[k] = own.filter(|row| span.insert(row)).count();
     }
     added
 }
@@ -142,4 +149,249 @@ fn highest(
         highest = highest.zip(number).map(|(a, b)| a.max(b));
     }
     highest
+}
+
+/// Maximum number of freedoms.
+const MOST: usize = 64;
+/// Maximum number of terms of a class.
+const TERMS: usize = 100_000;
+
+/// The two arcs of a contour, each a set of freedoms.
+#[derive(Debug, Clone)]
+struct Arcs {
+    one: Vec<usize>,
+    other: Vec<usize>,
+}
+
+impl Arcs {
+    fn new(one: Vec<usize>, other: Vec<usize>) -> Arcs {
+        Arcs { one, other }
+    }
+
+    /// Returns the number of freedoms in both arcs.
+    fn count(&self) -> usize {
+        self.one.len() + self.other.len()
+    }
+
+    fn set(&self) -> u64 {
+        let all = self.one.iter().chain(&self.other);
+        all.fold(0, |set, &v| set | 1 << v)
+    }
+}
+
+/// A class: the multiplicity of each product of different h, by their sets.
+#[derive(Debug, Clone)]
+struct Class(Vec<(u64, usize)>);
+
+impl Class {
+    fn one() -> Class {
+        Class(vec![(0, 1)])
+    }
+
+    /// Merges equal products and adds their multiplicities.
+    fn collected(mut terms: Vec<(u64, usize)>) -> Class {
+        terms.sort_unstable_by_key(|t| t.0);
+        terms.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 = kept.1.saturating_add(next.1);
+            }
+            same
+        });
+        Class(terms)
+    }
+
+    /// Multiplies by a sum of h.
+    fn times(&self, sum: &[usize]) -> Class {
+        let mut terms = Vec::with_capacity(self.0.len() * sum.len());
+        for &(set, often) in &self.0 {
+            let others = sum.iter().filter(|&&v| set >> v & 1 == 0);
+            terms.extend(others.map(|&v| (set | 1 << v, often)));
+        }
+        Class::collected(terms)
+    }
+
+    /// Multiplies by Σ S^i T^j over i + j = n, with S and T the sums over two arcs. Returns `None` if the result has
+    /// too many terms.
+    fn times_all(self, arcs: &Arcs, n: usize) -> Option<Class> {
+        // With P_n that product, P_n = S P_(n - 1) + T^n P_0.
+        let mut other = self.clone();
+        let mut all = self;
+        for _ in 0..n {
+            other = other.times(&arcs.other);
+            all = Class::collected([all.times(&arcs.one).0, other.0.clone()].concat());
+            if all.0.len() > TERMS {
+                return None;
+            }
+        }
+        Some(all)
+    }
+
+    /// Removes the products that lack more than `cut` freedoms of no later arc.
+    fn without_lost<'a>(
+        mut self,
+        later: impl Iterator<Item = &'a Arcs>,
+        freedoms: usize,
+        cut: usize,
+    ) -> Class {
+        let open = later.fold(0, |set, arcs| set | arcs.set());
+        let gone = everything(freedoms) & !open;
+        self.0
+            .retain(|(set, _)| (gone & !set).count_ones() as usize <= cut);
+        self
+    }
+
+    /// Returns the number of points in common with `cut` general classes of all h, or `None` if it is too large.
+    fn number(&self, freedoms: usize, cut: usize) -> Option<usize> {
+        let missing = |set: u64| (everything(freedoms) & !set).count_ones() as usize;
+        let terms = self.0.iter().filter(|(set, _)| missing(*set) == cut);
+        let sum = terms.fold(0usize, |sum, (_, often)| sum.saturating_add(*often));
+        let ways = (1..=cut).fold(sum, usize::saturating_mul);
+        (ways < usize::MAX).then_some(ways)
+    }
+}
+
+fn everything(freedoms: usize) -> u64 {
+    u64::MAX >> (64 - freedoms.max(1))
+}
+
+/// Returns the highest order that can stop a platform on rods, or `None` for other mechanisms.
+fn bound_of_rods(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    instantaneous: usize,
+) -> Result<Option<usize>, ExactError> {
+    let (mut rods, mut bodies) = (0, 0);
+    for link in mechanism.link_ids() {
+        let joints: Vec<JointId> = mechanism.joints_at(link, closure.state).collect();
+        match joints[..] {
+            [] => {}
+            [a, b] if is_rod(exact, mechanism, [a, b])? => rods += 1,
+            _ => bodies += 1,
+        }
+    }
+    let platform = bodies == 2 && mechanism.joints_in(closure.state).count() == 2 * rods;
+    let power = u32::try_from(instantaneous).ok();
+    let power = power.and_then(|n| 8u32.checked_sub(n)).filter(|_| platform);
+    Ok(power.map(|p| 1 << p))
+}
+
+/// Returns true if two joints turn about one point each, so that a link between them only keeps those points at a fixed
+/// distance.
+fn is_rod(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    joints: [JointId; 2],
+) -> Result<bool, ExactError> {
+    let mut twists = Vec::new();
+    for j in joints {
+        let freedoms = mechanism.joints[j].joint_type.freedoms();
+        if !freedoms.iter().all(|f| f.turns()) {
+            return Ok(false);
+        }
+        twists.extend(spatial_twists(exact, mechanism, j)?);
+    }
+    Ok(twists.len() == 5 && Echelon::of(exact.field(), twists).rank() == 5)
+}
+
+/// Maximum order of the expansion of a motion.
+const HIGHEST: usize = 600;
+
+/// The power series of a pose, and one motion of it.
+pub(super) struct Expanded {
+    /// `None` if the mechanism is too large.
+    pub(super) series: Option<HigherOrder>,
+    /// A motion in a random direction.
+    pub(super) line: Option<Line>,
+    /// The highest order that can stop it.
+    bound: Option<usize>,
+}
+
+impl Expanded {
+    pub(super) fn new(
+        exact: &ExactField,
+        mechanism: &Mechanism,
+        closure: &Closure<Residue>,
+        pose: &Pose,
+        rank: usize,
+    ) -> Result<Expanded, ExactError> {
+        let series = HigherOrder::new(exact, mechanism, closure, pose, rank)?;
+        let instantaneous = closure.columns.len() - rank;
+        let bound = bound(exact, mechanism, closure, instantaneous)?;
+        let bound = bound.filter(|&order| order <= HIGHEST);
+        let order = bound.unwrap_or(0).max(ORDER);
+        let line = series.as_ref().map(|s| s.line(order));
+        Ok(Expanded {
+            series,
+            line,
+            bound,
+        })
+    }
+
+    /// Returns true if the motion continues beyond every possible obstruction, so that every instantaneous motion is
+    /// finite.
+    pub(super) fn is_never_stopped(&self) -> bool {
+        matches!((self.line, self.bound), (Some(line), Some(bound)) if line.stopped.is_none() && line.order >= bound)
+    }
+}
+
+/// Returns true if every contour on its own is at a regular pose of its motion, and no contour duplicates constraints
+/// of others.
+///
+/// # Errors
+/// Returns an error if a coordinate has no value in the field.
+///
+/// # Complexity
+/// One proof per contour, if their ranks add up to that of J.
+pub(super) fn are_apart(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    rank: usize,
+) -> Result<bool, ExactError> {
+    if closure.contours.len() < 2 || !closure.couplings.is_empty() {
+        return Ok(false);
+    }
+    let mut each = Vec::new();
+    for contour in &closure.contours {
+        let joints: Vec<_> = contour.joints.iter().map(|&(j, _)| j).collect();
+        let part = alone(mechanism, &joints);
+        let own = Closure::new(exact, &part, closure.state)?;
+        let rank = modular::rank(exact, &own);
+        each.push((part, own, rank));
+    }
+    if each.iter().map(|(_, _, rank)| rank).sum::<usize>() != rank {
+        return Ok(false);
+    }
+    for (part, own, rank) in &each {
+        let proven = regular(exact, part, own, *rank)?.is_some()
+            || Expanded::new(exact, part, own, &Pose::of_file(part, own.state)?, *rank)?
+                .is_never_stopped();
+        if !proven {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two arcs of n hinges each, closed by as many equations as they have: n! n!.
+    #[test]
+    fn numbers_by_hand() {
+        for (n, expected) in [(1, 1), (2, 4), (3, 36), (4, 576)] {
+            let arcs = Arcs::new((0..n).collect(), (n..2 * n).collect());
+            let class = Class::one().times_all(&arcs, 2 * n).unwrap();
+            assert_eq!(class.number(2 * n, 0), Some(expected));
+        }
+        // A curve of four hinges cut by the sum of all t: (S² T + S T²)(S + T) = 2 S² T², and S² = T² = 2 of two h each.
+        let arcs = Arcs::new(vec![0, 1], vec![2, 3]);
+        let class = Class::one().times_all(&arcs, 3).unwrap();
+        assert_eq!(class.number(4, 1), Some(8));
+        let none = class.without_lost(std::iter::empty(), 4, 0);
+        assert_eq!(none.number(4, 1), Some(0));
+    }
 }

@@ -135,10 +135,3 @@ impl Monomials {
         Some(inside == top.len())
     }
 }
-
-/// Adds a multiple of a series.
-pub(in crate::rank) fn accumulate(f: Field, sum: &mut [Residue], series: &[Residue], by: Residue) {
-    for (s, &x) in sum.iter_mut().zip(series).filter(|(_, x)| **x != 0) {
-        *s = f.add(*s, f.mul(by, x));
-    }
-}

@@ -1,19 +1,36 @@
-//! Second-order obstructions of a motion that hold for any rounding of the coordinates.
+//! Motions that the second order stops or lets pass: proven at singular poses, or for any rounding of the coordinates.
 //!
 //! At a pose whose J has its intended rank, a motion is stopped if self-stresses do work on its gaps of second order.
 //! That work changes with each coordinate, both directly and through the motion and the self-stress. Perturbation
 //! theory gives these changes to first order [Stewart & Sun, "Matrix Perturbation Theory", 1990]. The sum of the
 //! changes over half a unit of each coordinate bounds the effect of rounding on the work.
+//!
+//! Singular poses are poses without motion, crossings of branches, and cusps in which a branch turns back.
+//!
+//! J leaves open s equations g(x) = 0 in n free coordinates. Their number s is the dimension of the groups of the
+//! contours less the rank of J. To second order they are quadratic forms. If a combination of them is definite, nothing
+//! moves, as in a taut chain [Connelly & Whiteley 1996]. At a common zero with independent gradients, a motion of n - s
+//! freedoms begins [Avakov 1985; Izmailov & Tretyakov 1994].
+//!
+//! A single equation has zeros of n - 1 dimensions as soon as it changes its sign. It does so along a line on which it
+//! begins with an odd power, which finds cusps. Motions of more freedoms are excluded by power series in a random
+//! subspace (`higher_order`).
 
-use crate::closure::twist::{FrameValues, MotionSpace};
+use crate::closure::Closure;
+use crate::closure::twist::MotionSpace;
 use crate::geom::Reals;
-use crate::geom::vector::{length, real};
-use crate::model::mechanism::{JointId, Mechanism, Mode};
+use crate::geom::exact::{ExactError, ExactField};
+use crate::linalg::echelon::{combination, relations};
+use crate::linalg::modp::{Field, Residue};
+use crate::model::mechanism::{JointId, Mechanism};
 use crate::model::rounded::Uncertainties;
 use crate::motion::pose::Pose;
-use crate::rank::finite::tangent_cone::{Flat, Quadrics, form, norm, works};
-use crate::rank::rounded::size;
-use ozols_dense::{Matrix, Svd, svd};
+use crate::rank::finite::higher_order::{HigherOrder, Line, ORDER};
+use crate::rank::finite::mobility::{Finite, How, dimension};
+use crate::rank::finite::tangent_cone::{self, Flat, Quadrics, directions, sparse, works};
+use crate::rank::rounded::{Coordinate, coordinates, frame_with, size};
+use itertools::Itertools;
+use ozols_dense::{Matrix, Svd, dot, svd};
 
 /// Step of finite differences, in radians and fractions of the size.
 const STEP: f64 = 1e-5;
@@ -49,22 +66,16 @@ impl Roundings {
         }
     }
 
-    /// Returns how far each component of the point, the axis and the reference of a joint may be off, if it matters.
-    fn of(&self, mechanism: &Mechanism, j: JointId) -> [[f64; 3]; 3] {
-        let (at, joint_type) = (j.index(), &mechanism.joints[j].joint_type);
-        // In a plane, axes stay perpendicular to it.
-        let turned = matches!(mechanism.mode, Mode::Spatial);
-        let off = |half: [f64; 3], matters: bool| {
-            half.map(|h| if matters { self.times * h } else { 0.0 })
+    /// Returns the coordinates of some joints that may be off and matter.
+    fn coordinates(&self, mechanism: &Mechanism, joints: &[JointId]) -> Vec<Coordinate> {
+        let matters = |c: &Coordinate| match c.vector {
+            0 => true,
+            1 => mechanism.joints[c.joint].joint_type.is_directed(),
+            _ => mechanism.joints[c.joint].joint_type.has_second_axis(),
         };
-        [
-            off(self.half.point[at], true),
-            off(self.half.axis[at], turned && joint_type.is_directed()),
-            off(
-                self.half.reference[at],
-                turned && joint_type.has_second_axis(),
-            ),
-        ]
+        let mut all = coordinates(mechanism, joints.iter().copied(), &self.half);
+        all.retain(matters);
+        all
     }
 }
 
@@ -91,11 +102,7 @@ impl SecondOrder {
     ) -> Option<SecondOrder> {
         let f = pose.columns.len();
         let here = pose.jacobian(&vec![0.0; f]);
-        let joints: Vec<JointId> = {
-            let mut of: Vec<JointId> = pose.columns.iter().map(|c| c.joint).collect();
-            of.dedup();
-            of
-        };
+        let joints: Vec<JointId> = pose.columns.iter().map(|c| c.joint).dedup().collect();
         let matrices = 18 * joints.len() * motions * (motions + 1);
         if matrices * pose.rows() * f > LARGEST {
             return None;
@@ -117,53 +124,33 @@ impl SecondOrder {
         let table_at = |there: &Pose| {
             let mut change = there.jacobian(&vec![0.0; f]);
             change.add_multiple(-1.0, &here);
-            let transposed = Matrix::from_fn(f, change.nrows(), |r, c| change[(c, r)]);
             let mut flat = Flat {
                 kernel: flat.kernel.clone(),
                 stresses: flat.stresses.clone(),
                 clear: true,
             };
             let motion = factors.least_norm(rank, &change.times(&flat.kernel));
-            let stress = turned.least_norm(rank, &transposed.times(&flat.stresses));
+            let stress = turned.least_norm(rank, &change.transpose_times(&flat.stresses));
             flat.kernel.add_multiple(-1.0, &motion);
             flat.stresses.add_multiple(-1.0, &stress);
             (works(there, &flat), change)
         };
         let space = MotionSpace::new(&Reals, &mechanism.mode).ok()?;
         let (mut changes, mut moved) = (Vec::new(), 0.0);
-        for j in joints {
-            let joint = &mechanism.joints[j];
-            let vectors = [
-                &joint.frame.point,
-                &joint.frame.axis,
-                &joint.frame.reference,
-            ]
-            .map(real);
-            let pitch = joint.frame.pitch.to_f64();
-            for (v, off) in known.of(mechanism, j).into_iter().enumerate() {
-                let scale = if v == 0 {
-                    pose.length
-                } else {
-                    length(vectors[v])
-                };
-                for (c, off) in off.into_iter().enumerate().filter(|(_, off)| *off > 0.0) {
-                    let at = |by: f64| {
-                        let mut vectors = vectors;
-                        vectors[v][c] += by;
-                        let frame = FrameValues::of(&Reals, vectors, pitch);
-                        table_at(&pose.reframed(mechanism, &space, j, &frame))
-                    };
-                    let step = STEP * scale;
-                    let ((mut up, mut up_by), (down, down_by)) = (at(step), at(-step));
-                    up.add_multiple(-1.0, &down);
-                    up_by.add_multiple(-1.0, &down_by);
-                    let part = off / (2.0 * step);
-                    moved += (part * size_of(&up_by)).powi(2);
-                    changes.push(Matrix::from_fn(up.nrows(), up.ncols(), |r, c| {
-                        part * up[(r, c)]
-                    }));
-                }
-            }
+        for c in known.coordinates(mechanism, &joints) {
+            let at = |by: f64| {
+                let frame = frame_with(mechanism, &c, c.written + by);
+                table_at(&pose.reframed(mechanism, &space, c.joint, &frame))
+            };
+            let step = STEP * c.scale;
+            let ((mut up, mut up_by), (down, down_by)) = (at(step), at(-step));
+            up.add_multiple(-1.0, &down);
+            up_by.add_multiple(-1.0, &down_by);
+            let part = known.times * c.half / (2.0 * step);
+            moved += (part * up_by.norm()).powi(2);
+            changes.push(Matrix::from_fn(up.nrows(), up.ncols(), |r, c| {
+                part * up[(r, c)]
+            }));
         }
         if moved.sqrt() > SMALL * least {
             return None;
@@ -199,7 +186,7 @@ impl SecondOrder {
     fn change(&self, stress: &[f64]) -> f64 {
         let one = |change: &Matrix| {
             let row = change.transpose_times(&Matrix::column(stress));
-            size_of(&form(row.col(0), self.motions))
+            tangent_cone::form(row.col(0), self.motions).norm()
         };
         self.changes.iter().map(one).sum()
     }
@@ -212,8 +199,7 @@ impl SecondOrder {
         (0..factors.values.len()).all(|k| {
             let (u, v) = (factors.u.col(k), factors.v.col(k));
             let one = |change: &Matrix| -> f64 {
-                let row = change.transpose_times(&Matrix::column(u));
-                row.col(0).iter().zip(v).map(|(a, b)| a * b).sum()
+                dot(change.transpose_times(&Matrix::column(u)).col(0), v)
             };
             let squares: f64 = self.changes.iter().map(|c| one(c).powi(2) / 3.0).sum();
             factors.values[k] <= ZERO.max(RARE * squares.sqrt())
@@ -221,8 +207,125 @@ impl SecondOrder {
     }
 }
 
-/// Returns the Frobenius norm.
-fn size_of(matrix: &Matrix) -> f64 {
-    let columns = (0..matrix.ncols()).map(|c| norm(matrix.col(c)).powi(2));
-    columns.sum::<f64>().sqrt()
+/// Returns the mobility at a pose where not every first-order motion is finite, or `None` if this test does not decide.
+/// `stopped` is the order that stops a motion in a random direction.
+///
+/// # Errors
+/// Returns an error if a coordinate has no value in the field.
+///
+/// # Complexity
+/// O(n²) expansions to second order, and one of a line.
+pub(super) fn passed(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    closure: &Closure<Residue>,
+    rank: usize,
+    pose: &Pose,
+    series: &HigherOrder,
+    stopped: usize,
+) -> Result<Option<Finite>, ExactError> {
+    let n = closure.columns.len() - rank;
+    let flat = Flat::new(pose, Some(n));
+    let quadrics = Quadrics::new(pose, &flat);
+    if quadrics.is_definite() {
+        let (order, motions) = (2, n);
+        return Ok(Some(Finite::new(0, How::Stopped { order, motions })));
+    }
+    let equations = dimension(exact, mechanism, closure)? - rank;
+    if equations == 0 || equations >= n {
+        return Ok(None);
+    }
+    let through = |order| Some(Finite::new(n - equations, How::Singular { order }));
+    if equations == 1
+        && let Some(order) = [Some(stopped), flat_line(series)]
+            .into_iter()
+            .flatten()
+            .find(|order| order % 2 == 1)
+    {
+        return Ok(through(order));
+    }
+    let zeros = directions(&quadrics, sparse(&flat.kernel), starts(n));
+    let crossing = quadrics.cross(equations, &zeros) && series.isolated(equations).is_some();
+    Ok(if crossing { through(2) } else { None })
+}
+
+/// Returns the order of the single equation along a line without second-order terms, bent to remove the fourth order if
+/// possible. Returns `None` if there is no such line.
+fn flat_line(series: &HigherOrder) -> Option<usize> {
+    let (field, n) = series.free();
+    let kernel = relations(field, &form(series)?);
+    let weights: Vec<Residue> = (0..kernel.len()).map(|k| any(field, k)).collect();
+    let line = combination(field, &kernel, &weights);
+    if line.iter().all(|&x| x == 0) {
+        return None;
+    }
+    let across: Vec<Residue> = (0..n).map(|k| any(field, n + k)).collect();
+    let along = |a: Residue| {
+        let bent: Vec<Residue> = across.iter().map(|&x| field.mul(a, x)).collect();
+        series.bent_line(&line, &bent, ORDER)
+    };
+    let straight = along(0);
+    if straight.stopped != Some(4) {
+        return straight.stopped;
+    }
+    // The fourth order is of second degree in a: c + b a + q a², a square if its discriminant is 0.
+    let fourth = |a: Residue| match along(a) {
+        Line {
+            stopped: Some(4),
+            value,
+            ..
+        } => value,
+        _ => 0,
+    };
+    let (one, two) = (field.one(), field.from_i64(2));
+    let (c, plus, minus) = (straight.value, fourth(one), fourth(field.neg(one)));
+    let half = field.inv(two);
+    let b = field.mul(half, field.sub(plus, minus));
+    let q = field.sub(field.mul(half, field.add(plus, minus)), c);
+    let square = field.mul(b, b) == field.mul(field.from_i64(4), field.mul(q, c));
+    let bent = (q != 0 && square).then(|| field.neg(field.mul(b, field.inv(field.mul(two, q)))));
+    bent.map_or(straight.stopped, |a| along(a).stopped)
+}
+
+/// Returns twice the matrix of the quadratic form of the single equation, or `None` if it has no second-order terms.
+fn form(series: &HigherOrder) -> Option<Vec<Vec<Residue>>> {
+    let (field, n) = series.free();
+    let unit = |set: &[usize]| -> Vec<Residue> {
+        let one = |i: usize| if set.contains(&i) { field.one() } else { 0 };
+        (0..n).map(one).collect()
+    };
+    let single: Vec<Vec<Residue>> = (0..n).map(|i| series.second(&unit(&[i]))).collect();
+    // One form for each remaining row; all are multiples of one another.
+    let mut forms = vec![vec![vec![0; n]; n]; single.first()?.len()];
+    for i in 0..n {
+        for j in 0..n {
+            let both = if i == j {
+                let twice = |&x: &Residue| field.mul(field.from_i64(4), x);
+                single[i].iter().map(twice).collect()
+            } else {
+                series.second(&unit(&[i, j]))
+            };
+            for (k, form) in forms.iter_mut().enumerate() {
+                form[i][j] = field.sub(field.sub(both[k], single[i][k]), single[j][k]);
+            }
+        }
+    }
+    let some = |form: &Vec<Vec<Residue>>| form.iter().flatten().any(|&x| x != 0);
+    forms.into_iter().find(some)
+}
+
+/// Returns numbers unrelated to the geometry.
+fn any(field: Field, k: usize) -> Residue {
+    field.from_i64(0x2545_f491_4f6c_dd1d_i64.wrapping_mul(2 * k as i64 + 1) >> 2)
+}
+
+/// Returns start directions for the search for zeros, spread evenly by the plastic numbers of that many dimensions.
+fn starts(n: usize) -> Vec<Vec<f64>> {
+    let share = |i: usize, k: usize| {
+        let step = 1.0 / 1.220_744_084_6_f64.powi(1 + i32::try_from(k).unwrap_or(0));
+        (0.5 + (i + 1) as f64 * step).fract() - 0.5
+    };
+    (0..40)
+        .map(|i| (0..n).map(|k| share(i, k)).collect())
+        .collect()
 }

@@ -6,7 +6,7 @@
 //! definite, there are none.
 
 use crate::motion::pose::{FLAT, Pose};
-use ozols_dense::{Matrix, singular_values, solve, svd, symmetric_eigen};
+use ozols_dense::{Matrix, dot, norm, singular_values, solve, svd, symmetric_eigen};
 
 /// Values of a form, relative to the largest coefficient, that count as zero.
 const ZERO: f64 = 1e-6;
@@ -55,10 +55,6 @@ impl Flat {
     }
 }
 
-pub(in crate::rank) fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
 /// The quadratic forms.
 #[derive(Debug)]
 pub(in crate::rank) struct Quadrics {
@@ -103,15 +99,8 @@ impl Quadrics {
         self.forms.is_empty()
     }
 
-    fn times(form: &Matrix, x: &[f64]) -> Vec<f64> {
-        (0..x.len())
-            .map(|i| x.iter().enumerate().map(|(j, x)| form[(i, j)] * x).sum())
-            .collect()
-    }
-
     fn values(&self, x: &[f64]) -> Vec<f64> {
-        let value = |q: &Matrix| Self::times(q, x).iter().zip(x).map(|(a, b)| a * b).sum();
-        self.forms.iter().map(value).collect()
+        self.forms.iter().map(|q| dot(&q.combined(x), x)).collect()
     }
 
     /// Returns the zero of all forms near a unit vector, if there is one.
@@ -123,7 +112,7 @@ impl Quadrics {
             if gap < 1e-13 {
                 break;
             }
-            let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, &x)).collect();
+            let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| q.combined(&x)).collect();
             // (GᵀG + xxᵀ + λ) step = Gᵀ values, G = 2 gradients.
             let damping = gap.min(1e-2) * 1e-2 + 1e-14;
             let normal = Matrix::from_fn(n, n, |i, j| {
@@ -158,7 +147,7 @@ impl Quadrics {
         if self.forms.is_empty() {
             return n;
         }
-        let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| Self::times(q, x)).collect();
+        let gradients: Vec<Vec<f64>> = self.forms.iter().map(|q| q.combined(x)).collect();
         let matrix = Matrix::from_fn(gradients.len(), n, |i, j| gradients[i][j]);
         let values = singular_values(&matrix).unwrap_or_default();
         n - values.iter().filter(|&&s| s > floor).count()
@@ -239,14 +228,10 @@ pub(in crate::rank) fn form(row: &[f64], motions: usize) -> Matrix {
 /// O(n² (f + rows · stresses)) for n motions.
 pub(in crate::rank) fn works(pose: &Pose, flat: &Flat) -> Matrix {
     let n = flat.kernel.ncols();
-    let (f, s) = (flat.kernel.nrows(), flat.stresses.ncols());
+    let s = flat.stresses.ncols();
     let works = |x: &[f64]| -> Vec<f64> {
-        let v: Vec<f64> = (0..f)
-            .map(|r| (0..n).map(|c| flat.kernel[(r, c)] * x[c]).sum())
-            .collect();
-        let work = flat
-            .stresses
-            .transpose_times(&Matrix::column(&pose.bend(&v)));
+        let bend = Matrix::column(&pose.bend(&flat.kernel.combined(x)));
+        let work = flat.stresses.transpose_times(&bend);
         work.col(0).iter().map(|w| w / 2.0).collect()
     };
     let unit = |pairs: &[usize]| {
@@ -281,10 +266,7 @@ pub(in crate::rank) fn directions(
     let mut found: Vec<Vec<f64>> = Vec::new();
     for x in sparse.into_iter().chain(random) {
         if let Some(x) = quadrics.zero_near(x) {
-            let known = |y: &Vec<f64>| {
-                let dot: f64 = y.iter().zip(&x).map(|(a, b)| a * b).sum();
-                dot.abs() > 1.0 - 1e-8
-            };
+            let known = |y: &Vec<f64>| dot(y, &x).abs() > 1.0 - 1e-8;
             if !found.iter().any(known) {
                 found.push(x);
             }
@@ -316,9 +298,7 @@ pub(in crate::rank) fn choice(
 /// Returns motions of few joints: a basis of the kernel in reduced form, as weights of its columns.
 pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
     let (f, n) = (kernel.nrows(), kernel.ncols());
-    let mut rows: Vec<Vec<f64>> = (0..n)
-        .map(|c| (0..f).map(|r| kernel[(r, c)]).collect())
-        .collect();
+    let mut rows: Vec<Vec<f64>> = (0..n).map(|c| kernel.col(c).to_vec()).collect();
     for i in 0..n {
         // The largest remaining entry is the pivot.
         let largest = |row: &Vec<f64>| {
@@ -344,20 +324,12 @@ pub(in crate::rank) fn sparse(kernel: &Matrix) -> Vec<Vec<f64>> {
             }
         }
     }
-    rows.iter()
-        .map(|row| {
-            let x: Vec<f64> = (0..n)
-                .map(|c| {
-                    row.iter()
-                        .enumerate()
-                        .map(|(r, v)| v * kernel[(r, c)])
-                        .sum()
-                })
-                .collect();
-            let size = norm(&x).max(1e-12);
-            x.into_iter().map(|v| v / size).collect()
-        })
-        .collect()
+    let weights = |row: &Vec<f64>| -> Vec<f64> {
+        let x: Vec<f64> = (0..n).map(|c| dot(kernel.col(c), row)).collect();
+        let size = norm(&x).max(1e-12);
+        x.into_iter().map(|v| v / size).collect()
+    };
+    rows.iter().map(weights).collect()
 }
 
 #[cfg(test)]

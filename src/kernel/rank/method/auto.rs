@@ -1,12 +1,14 @@
 //! The automatic choice: the cheapest method that is certain for this mechanism. One line states the choice, the
 //! reason, and what was omitted.
 
-use crate::closure::Closure;
 use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::exact::field::field_of;
+use crate::rank::exact::field::closure_of;
+use crate::rank::exact::modular;
 use crate::rank::finite::second_order::Roundings;
-use crate::rank::finite::{Finite, finite_known, followed, within};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::rank::finite::{Finite, finite, finite_known, followed, within};
+use crate::rank::method::{
+    About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ, int,
+};
 use crate::rank::numeric::Elimination;
 use crate::rank::rounded::verdict::{Meant, RankVerdict, allowed, verdict};
 
@@ -45,8 +47,7 @@ fn finite_of(m: &Mechanism, state: StateId, found: &RankVerdict) -> Result<Finit
     let times = if found.is_as_written() { 1.0 } else { 2.0 };
     let known = half.map(|half| Roundings::new(m, half, times));
     let exactly = |m: &Mechanism, rank: usize| {
-        let exact = field_of(m, state, 0)?;
-        let closure = Closure::new(&exact, m, state)?;
+        let (exact, closure) = closure_of(m, state, 0)?;
         finite_known(&exact, m, &closure, rank, known.as_ref())
     };
     Ok(match &found.meant {
@@ -112,6 +113,19 @@ fn line(found: &RankVerdict) -> String {
     }
 }
 
+/// Returns the answer of a finite mobility that is decided.
+fn answer(found: &Finite) -> Answer {
+    Answer {
+        mobility: int(found.mobility),
+        quantity: Quantity::Finite,
+        certainty: if found.is_proven() {
+            Certainty::Exact
+        } else {
+            Certainty::Traced
+        },
+    }
+}
+
 /// The automatic choice as a method; finite mobility.
 #[derive(Debug, Clone, Copy)]
 pub struct Auto;
@@ -141,14 +155,39 @@ impl MobilityMethod for Auto {
         let numeric = verdict
             .numeric
             .filter(|_| matches!(verdict.meant, Meant::Near { .. }));
-        Ok(Answer {
-            mobility: i64::try_from(finite.mobility).unwrap_or(i64::MAX),
-            quantity: Quantity::Finite,
-            certainty: match numeric {
-                Some(n) => Elimination::Svd.certainty(n, verdict.tolerance),
-                None if finite.is_proven() => Certainty::Exact,
-                None => Certainty::Traced,
+        let answer = answer(&finite);
+        Ok(match numeric {
+            Some(n) => Answer {
+                certainty: Elimination::Svd.certainty(n, verdict.tolerance),
+                ..answer
             },
+            None => answer,
         })
+    }
+}
+
+/// Exact rank at the pose, then [`finite`], as a method.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Exact;
+
+impl MobilityMethod for Exact {
+    fn about(&self) -> &'static About {
+        &About {
+            name: "finite",
+            title: "finite mobility, exact geometry",
+            help: "Exact rank, and the finite mobility",
+            guarantee: "proven if groups or higher orders decide; otherwise followed numerically, or undecided",
+            complexity: "one modular rank; otherwise about ten to a few hundred closings of O((6k)² f)",
+            source: "Hervé 1978 (groups); Connelly & Whiteley 1996, Müller 2016 (second and higher order); Bates et al. 2009, Wampler, Hauenstein & Sommese 2011 (local dimension)",
+            rank: RankOfJ::Exact,
+        }
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let (exact, closure) = closure_of(mechanism, state, 0)?;
+        let found = finite(&exact, mechanism, &closure, modular::rank(&exact, &closure))?;
+        if found.is_undecided() {
+            return Err(NoAnswer::Failed(found.describe()));
+        }
+        Ok(answer(&found))
     }
 }

@@ -1,10 +1,10 @@
-//! Counting formulas of links, joints and freedoms, without geometry.
+//! Counting formulas of links, joints and freedoms, and the sum of the ranks of separate contours.
 
-use crate::closure::Closure;
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::rank::exact::field::field_of;
+use crate::linalg::echelon::Echelon;
+use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::rank::exact::field::closure_of;
 use crate::rank::finite::displacement_group::{GroupKind, whole_group};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, int};
 
 /// W = 6(n - 1) - Σ constraints.
 #[derive(Debug, Clone, Copy)]
@@ -22,17 +22,8 @@ fn count(mechanism: &Mechanism, state: StateId, dim: i64, freedoms: usize) -> i6
         .collect();
     links.sort_unstable();
     links.dedup();
-    let int = |n: usize| i64::try_from(n).unwrap_or(i64::MAX);
     let constraints = dim * int(mechanism.joints_in(state).count()) - int(freedoms);
     dim * (int(links.len()).max(1) - 1) - constraints - int(mechanism.couplings_in(state).count())
-}
-
-fn counted(mobility: i64) -> Answer {
-    Answer {
-        mobility,
-        quantity: Quantity::Count,
-        certainty: Certainty::Counted,
-    }
 }
 
 impl MobilityMethod for Spatial {
@@ -48,12 +39,13 @@ impl MobilityMethod for Spatial {
         }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        if matches!(mechanism.mode, crate::model::mechanism::Mode::Planar { .. }) {
+        if matches!(mechanism.mode, Mode::Planar { .. }) {
             return Err(NoAnswer::DoesNotApply("the file is in planar mode"));
         }
         let joints = mechanism.joints_in(state);
         let freedoms = joints.map(|j| mechanism.joints[j].joint_type.freedoms().len());
-        Ok(counted(count(mechanism, state, 6, freedoms.sum())))
+        let mobility = count(mechanism, state, 6, freedoms.sum());
+        Ok(Answer::counted(mobility, Certainty::Counted))
     }
 }
 
@@ -70,16 +62,50 @@ impl MobilityMethod for Planar {
         }
     }
     fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
-        let exact = field_of(mechanism, state, 0)?;
+        let (exact, closure) = closure_of(mechanism, state, 0)?;
         match whole_group(&exact, mechanism, state)?.kind() {
             // Freedoms out of the plane, which planar mode omits, do not count here.
             GroupKind::Planar | GroupKind::Rotation => {
-                let freedoms = Closure::new(&exact, mechanism, state)?.columns.len();
-                Ok(counted(count(mechanism, state, 3, freedoms)))
+                let mobility = count(mechanism, state, 3, closure.columns.len());
+                Ok(Answer::counted(mobility, Certainty::Counted))
             }
             _ => Err(NoAnswer::DoesNotApply(
                 "not every joint moves in one plane; use the planar mode, which omits motions out of the plane",
             )),
         }
+    }
+}
+
+/// W = f - Σ rank of contour i, over a minimum cycle basis.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Loops;
+
+impl MobilityMethod for Loops {
+    fn about(&self) -> &'static About {
+        &About {
+            name: "loops",
+            title: "sum of contour ranks",
+            help: "Freedoms minus the ranks of the separate contours",
+            guarantee: "right if contours do not share redundant constraints; otherwise too small, and dependent on the cycle basis [Gogu 2005]",
+            complexity: "O(f) eliminations of six rows",
+            source: "Voinea & Atanasiu 1959; Gogu 2005",
+            rank: RankOfJ::NotFound,
+        }
+    }
+    fn answer(&self, mechanism: &Mechanism, state: StateId) -> Result<Answer, NoAnswer> {
+        let (exact, closure) = closure_of(mechanism, state, 0)?;
+        let mut mobility = int(closure.columns.len());
+        for k in 0..closure.contours.len() {
+            let passes = |c: &usize| {
+                let joint = closure.columns[*c].joint;
+                closure.contours[k].direction(joint).is_some()
+            };
+            let columns = (0..closure.columns.len()).filter(passes);
+            let columns = columns.map(|c| closure.dense_column(&exact, c, &[k]));
+            mobility -= int(Echelon::of(exact.field(), columns).rank());
+        }
+        // A coupling is a separate row, of rank 1.
+        mobility -= int(closure.couplings.len());
+        Ok(Answer::counted(mobility, Certainty::Exact))
     }
 }

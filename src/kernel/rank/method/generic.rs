@@ -5,7 +5,7 @@
 //! The pebble game decides this [Lee & Streinu 2008].
 
 use crate::model::mechanism::{LinkId, Mechanism, Mode, StateId};
-use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, Quantity, RankOfJ};
+use crate::rank::method::{About, Answer, Certainty, MobilityMethod, NoAnswer, RankOfJ, int};
 
 /// W = D(n - 1) - the rank of the bars in general position.
 #[derive(Debug, Clone, Copy)]
@@ -109,22 +109,16 @@ impl MobilityMethod for Generic {
         let mut bars = Vec::new();
         for j in mechanism.joints_in(state) {
             let joint = &mechanism.joints[j];
-            let ends = joint.links.map(|l| {
-                links.iter().position(|&x| x == l).unwrap_or_else(|| {
-                    links.push(l);
-                    links.len() - 1
-                })
+            let [a, b] = joint.links.map(|l| {
+                links.extend((!links.contains(&l)).then_some(l));
+                links.iter().position(|&x| x == l).unwrap_or(0)
             });
             let class = usize::saturating_sub(dim, joint.joint_type.freedoms().len());
-            bars.extend(std::iter::repeat_n((ends[0], ends[1]), class));
+            bars.extend(std::iter::repeat_n((a, b), class));
         }
         let rank = generic_rank(links.len(), &bars, dim);
         let all = dim * (links.len().max(1) - 1);
-        Ok(Answer {
-            mobility: i64::try_from(all).unwrap_or(i64::MAX) - i64::try_from(rank).unwrap_or(0),
-            quantity: Quantity::Count,
-            certainty: Certainty::Counted,
-        })
+        Ok(Answer::counted(int(all) - int(rank), Certainty::Counted))
     }
 }
 

@@ -4,17 +4,15 @@ use crate::rank::exact::modular;
 use crate::rank::exact::rational;
 use crate::rank::method::MobilityMethod;
 use crate::rank::method::auto;
-use crate::rank::method::finite_exact;
 use crate::rank::method::formulas;
 use crate::rank::method::generic;
-use crate::rank::method::sum_of_loops;
 use crate::rank::numeric::Elimination;
 
 /// Every method, the cheapest kind first.
 pub const ALL: [&dyn MobilityMethod; 13] = [
     &formulas::Spatial,
     &formulas::Planar,
-    &sum_of_loops::Loops,
+    &formulas::Loops,
     &generic::Generic,
     &Elimination::Lu32,
     &Elimination::Lu,
@@ -23,7 +21,7 @@ pub const ALL: [&dyn MobilityMethod; 13] = [
     &Elimination::Svd,
     &modular::Modular,
     &rational::Rational,
-    &finite_exact::Exact,
+    &auto::Exact,
     &auto::Auto,
 ];
 

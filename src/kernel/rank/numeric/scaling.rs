@@ -2,7 +2,7 @@
 
 use crate::closure::Closure;
 use crate::geom::Reals;
-use ozols_dense::Matrix;
+use ozols_dense::{Matrix, norm};
 
 /// Returns the unscaled J: 6k × f, lengths in the file's unit, about the global origin.
 #[must_use]
@@ -31,7 +31,6 @@ impl Scaling {
     #[must_use]
     pub fn of(closure: &Closure<f64>) -> Scaling {
         let turns = closure.dim / 2;
-        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mut scaling = Scaling {
             middle: closure
                 .extent
@@ -92,7 +91,7 @@ impl Scaling {
     pub fn unit(&self, column: &mut [f64]) {
         // Six components, or three in a plane; entries of couplings follow them.
         let twist = self.length_of(&column[..self.components]);
-        let size = twist.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let size = norm(&twist);
         column[..twist.len()].copy_from_slice(&twist);
         if size > 0.0 {
             column.iter_mut().for_each(|x| *x /= size);

@@ -12,7 +12,7 @@
 //!
 //! The result holds for the given pose and geometry. Rows without motion here may have motion in another pose.
 
-use crate::closure::{Closure, Column, CouplingRow};
+use crate::closure::{Closure, Column};
 use crate::format::plural;
 use crate::geom::exact::{ExactError, ExactField};
 use crate::linalg::echelon::Echelon;
@@ -24,7 +24,6 @@ use crate::rank::finite::independent_parts::parts;
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::plane::{Rows, planes, seen};
 use itertools::Itertools;
-use std::collections::HashMap;
 
 /// Motions that rows describe.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,9 +98,10 @@ impl LeastRows {
         if let Mode::Planar { .. } = mechanism.mode {
             blocks.push(all(BlockRows::whole(exact, closure)));
         } else {
-            for (joints, (contours, own)) in tied.iter().zip(of_blocks(closure, &tied)) {
+            for part in closure.parts(&tied) {
+                let (joints, contours) = (part.joints, part.contours);
                 spoken_for += if contours.is_empty() { 0 } else { joints.len() };
-                let parts = least(exact, mechanism, joints, &own)?;
+                let parts = least(exact, mechanism, &joints, &part.closure)?;
                 blocks.push(Block { contours, parts });
             }
             // Blocks with the same group are reported as one.
@@ -277,51 +277,6 @@ impl BlockRows {
 
 fn enough(n: usize) -> &'static str {
     if n == 1 { "is enough" } else { "are enough" }
-}
-
-/// Returns J of each block on its own, with the indices of its contours. The joints of a block, ascending, are
-/// connected to no others.
-fn of_blocks(
-    closure: &Closure<Residue>,
-    blocks: &[Vec<JointId>],
-) -> Vec<(Vec<usize>, Closure<Residue>)> {
-    let alone = || Closure {
-        state: closure.state,
-        dim: closure.dim,
-        contours: Vec::new(),
-        columns: Vec::new(),
-        couplings: Vec::new(),
-        extent: closure.extent,
-        left_out: Vec::new(),
-    };
-    let mut out: Vec<_> = blocks.iter().map(|_| (Vec::new(), alone())).collect();
-    let of: HashMap<JointId, usize> = blocks
-        .iter()
-        .enumerate()
-        .flat_map(|(b, joints)| joints.iter().map(move |&j| (j, b)))
-        .collect();
-    for (place, contour) in closure.contours.iter().enumerate() {
-        let first = contour.joints.first();
-        if let Some(&b) = first.and_then(|(j, _)| of.get(j)) {
-            out[b].0.push(place);
-            out[b].1.contours.push(contour.clone());
-        }
-    }
-    let mut now = vec![0; closure.columns.len()];
-    for (c, column) in closure.columns.iter().enumerate() {
-        if let Some(&b) = of.get(&column.joint) {
-            now[c] = out[b].1.columns.len();
-            out[b].1.columns.push(column.clone());
-        }
-    }
-    for coupling in &closure.couplings {
-        let at = closure.columns[coupling.entries[0].0].joint;
-        if let Some(&b) = of.get(&at) {
-            let entries = coupling.entries.map(|(c, x)| (now[c], x));
-            out[b].1.couplings.push(CouplingRow { entries });
-        }
-    }
-    out
 }
 
 /// Returns the smallest set of rows of a block in space.

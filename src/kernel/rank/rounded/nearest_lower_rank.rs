@@ -8,12 +8,11 @@ use crate::closure::Closure;
 use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::geom::Reals;
 use crate::geom::expr::Expr;
-use crate::geom::vector::{length, real};
-use crate::model::mechanism::{JointId, Mechanism, Mode, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::model::rounded::Uncertainties;
 use crate::rank::numeric::scaling::{Scaling, scaled};
-use crate::rank::rounded::size;
-use ozols_dense::{Matrix, svd, thin_svd};
+use crate::rank::rounded::{Coordinate, coordinates, frame_with};
+use ozols_dense::{Matrix, difference, dot, largest, svd, thin_svd};
 
 /// Maximum number of Newton steps.
 const STEPS: usize = 12;
@@ -46,60 +45,6 @@ pub struct Nearest {
     pub conditions: usize,
 }
 
-/// A coordinate that may be moved.
-struct Coordinate {
-    joint: JointId,
-    /// 0 for the point, 1 for the axis, 2 for the reference.
-    vector: usize,
-    component: usize,
-    /// One unit of the last digit.
-    unit: f64,
-    /// Step of a finite difference, in such units.
-    step: f64,
-    written: f64,
-}
-
-/// Returns the coordinates of a state that may be rounded, each with twice its half unit.
-fn coordinates(m: &Mechanism, state: StateId, half: &Uncertainties) -> Vec<Coordinate> {
-    // In a plane, axes must stay perpendicular to it.
-    let spatial = matches!(m.mode, Mode::Spatial);
-    let size = size(m);
-    let mut out = Vec::new();
-    for joint in m.joints_in(state) {
-        let frame = &m.joints[joint].frame;
-        let at = joint.index();
-        for (vector, (of, half)) in [
-            (&frame.point, half.point[at]),
-            (&frame.axis, half.axis[at]),
-            (&frame.reference, half.reference[at]),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let scale = match vector {
-                0 => size,
-                _ if spatial => length(real(of)),
-                _ => continue,
-            };
-            for (component, (x, half)) in of.iter().zip(half).enumerate() {
-                let unit = 2.0 * half;
-                if unit > 0.0 {
-                    let written = x.to_f64();
-                    out.push(Coordinate {
-                        joint,
-                        vector,
-                        component,
-                        unit,
-                        step: DIFFERENCE * scale / unit,
-                        written,
-                    });
-                }
-            }
-        }
-    }
-    out
-}
-
 /// Returns the mechanism with each coordinate moved by that many units.
 fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
     let mut out = m.clone();
@@ -110,7 +55,7 @@ fn moved(m: &Mechanism, of: &[Coordinate], by: &[f64]) -> Option<Mechanism> {
             1 => &mut frame.axis,
             _ => &mut frame.reference,
         };
-        vector[c.component] = Expr::from_f64(c.written + x * c.unit).ok()?;
+        vector[c.component] = Expr::from_f64(c.written + x * 2.0 * c.half).ok()?;
     }
     Some(out)
 }
@@ -131,7 +76,7 @@ pub fn nearest(
     rank: usize,
     half: &Uncertainties,
 ) -> Option<Nearest> {
-    let of = coordinates(m, state, half);
+    let of = coordinates(m, m.joints_in(state), half);
     let mut closure = Closure::new(&Reals, m, state).ok()?;
     let contours = closure.contours.clone();
     let equations = (closure.rows() - rank) * (closure.columns.len() - rank);
@@ -144,8 +89,7 @@ pub fn nearest(
         let singular = svd(&matrix)?;
         let beyond = singular.values.get(rank).copied().unwrap_or(0.0);
         if beyond <= ZERO * singular.values[0] {
-            let most = by.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-            let square: f64 = by.iter().map(|x| x * x).sum();
+            let (most, square) = (largest(&by), dot(&by, &by));
             let likely = most <= MOST && square <= largest_square(conditions);
             return likely.then_some(Nearest {
                 mechanism: found,
@@ -158,9 +102,7 @@ pub fn nearest(
         let change = changes(&found, &closure, &of, &by, &left, &right)?;
         let (step, felt) = least(&change, &residue)?;
         conditions = conditions.max(felt);
-        for (x, d) in by.iter_mut().zip(step) {
-            *x -= d;
-        }
+        by = difference(&by, &step);
         // The solution is already too far off: no step leads back within a unit.
         if by.iter().any(|x| !x.is_finite() || x.abs() > 10.0 * MOST) {
             return None;
@@ -186,15 +128,11 @@ fn changes(
     let (rows, columns) = (left.ncols(), right.ncols());
     let mut out = Matrix::zeros(rows * columns, of.len());
     for (p, c) in of.iter().enumerate() {
-        let joint = &m.joints[c.joint];
-        let frame = &joint.frame;
-        let freedoms = joint.joint_type.freedoms();
-        let shifted = |d: f64| {
-            let mut vectors = [&frame.point, &frame.axis, &frame.reference].map(real);
-            vectors[c.vector][c.component] = c.written + (by[p] + d) * c.unit;
-            FrameValues::of(&Reals, vectors, frame.pitch.to_f64())
-        };
-        let (before, after) = (shifted(-c.step), shifted(c.step));
+        let freedoms = m.joints[c.joint].joint_type.freedoms();
+        let unit = 2.0 * c.half;
+        let step = DIFFERENCE * c.scale / unit;
+        let shifted = |d: f64| frame_with(m, c, c.written + (by[p] + d) * unit);
+        let (before, after) = (shifted(-step), shifted(step));
         for (n, column) in closure.columns.iter().enumerate() {
             if column.joint != c.joint {
                 continue;
@@ -206,7 +144,7 @@ fn changes(
             };
             let (a, b) = (twist(&before)?, twist(&after)?);
             let rate: Vec<f64> = (a.iter().zip(&b))
-                .map(|(a, b)| (b - a) / (2.0 * c.step))
+                .map(|(a, b)| (b - a) / (2.0 * step))
                 .collect();
             for (k, contour) in closure.contours.iter().enumerate() {
                 let Some(forward) = contour.direction(c.joint) else {

@@ -1,20 +1,88 @@
 //! Joints that are nearly special: axes that are almost parallel, perpendicular, coaxial or concurrent, with the
 //! relation and the deviation from it.
 
-mod directions;
-mod places;
-pub mod relation;
-
-use crate::geom::exact_vector::{self, across, is_zero};
-use crate::geom::expr::Expr;
-use crate::geom::vector::{self, Vector, length, real, sub, unit};
-use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode};
+use crate::format::significant;
+use crate::geom::vector::{
+    Vector, X, Y, Z, across, add_scaled, cross, dot, length, real, sub, unit,
+};
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{Joint, JointId, Mechanism, Mode};
 use crate::model::rounded::looks_rounded;
 use crate::rank::rounded::size;
 use crate::rank::rounded::verdict::allowed;
-use directions::Directions;
-use places::{PlaceKind, kind, places};
-use relation::{NearJoint, Reach, Relation};
+use itertools::Itertools;
+
+/// Minimum sine between two directions that define a plane.
+const PLANE: f64 = 0.1;
+/// Minimum sine between two lines that may meet. Below it, the position of the crossing is too uncertain.
+const SKEW: f64 = 1e-2;
+/// Deviations caused by the rounding of doubles, in radians and sizes of the mechanism.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Maximum deviation of a joint from a special position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Deviation of its point or line, in the file's unit of length.
+    pub length: f64,
+    /// Deviation of its axes `[rad]`.
+    pub angle: f64,
+}
+
+impl Reach {
+    /// Returns a reach relative to the size of a mechanism: radians, and fractions of the size.
+    #[must_use]
+    pub fn relative(tolerance: f64, size: f64) -> Reach {
+        Reach {
+            length: tolerance * size,
+            angle: tolerance,
+        }
+    }
+}
+
+/// Special position of a joint, relative to another joint if there is one. The one that states most comes last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Relation {
+    /// Its axis is in one plane with two others.
+    InPlane,
+    /// Its axis is perpendicular to another.
+    Square,
+    /// Its axis is parallel to another, or to a global axis.
+    Parallel,
+    /// Its axis or centre passes through a common point with another.
+    Meeting,
+    /// Its centre is the same point as another.
+    Concentric,
+    /// Its axis is the same line as another.
+    Coaxial,
+}
+
+/// A joint that is nearly special.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearJoint {
+    /// The joint.
+    pub joint: JointId,
+    /// Deviation of its line or centre, in the file's unit of length.
+    pub shift: f64,
+    /// Deviation of its axes `[rad]`.
+    pub turn: f64,
+    /// The special positions, and the joints they refer to.
+    pub relations: Vec<(Relation, Option<JointId>)>,
+}
+
+impl NearJoint {
+    /// Returns the deviation: "0.002 degrees and 0.13 mm".
+    #[must_use]
+    pub fn far(&self, m: &Mechanism) -> String {
+        let small = |x: f64| match x {
+            1e-4..1e4 => significant(x),
+            _ => format!("{x:.1e}"),
+        };
+        let turn = (self.turn > 0.0).then(|| format!("{} degrees", small(self.turn.to_degrees())));
+        let shift =
+            (self.shift > 0.0).then(|| format!("{} {}", small(self.shift), m.length_unit.symbol));
+        turn.into_iter().chain(shift).join(" and ")
+    }
+}
 
 /// Returns how far the rounding of coordinates can have moved two joints of a mechanism apart, or `None` if its digits
 /// are exact.
@@ -29,8 +97,9 @@ pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
     })
 }
 
-/// Returns the joints that are nearly special, in file order. Their directions are within the angle of each other or of
-/// a right angle. Their lines and centres are within the length of a common point or of each other.
+/// Returns the joints that are nearly special, in file order. Their directions are within the angle of an earlier one
+/// or of a right angle. Their lines and centres are within the length of an earlier one. Deviations that doubles
+/// cannot distinguish from none do not count.
 ///
 /// # Guarantee
 /// No deviation exceeds the reach.
@@ -39,94 +108,175 @@ pub fn reach(mechanism: &Mechanism) -> Option<Reach> {
 /// O(p³) in the number of joints p.
 #[must_use]
 pub fn nearly_special(mechanism: &Mechanism, reach: Reach) -> Vec<NearJoint> {
-    let mut out = mechanism.clone();
-    let mut why: Vec<Vec<(Relation, Option<JointId>)>> = vec![Vec::new(); out.joints.len()];
-    for (joint, why) in out.joints.iter_mut().zip(&mut why) {
-        for x in &mut joint.frame.point {
-            if !x.is_zero_rational() && x.to_f64().abs() <= reach.length / 4.0 {
-                *x = Expr::from(0);
-                why.push((Relation::Zero, None));
+    let near = |joint| NearJoint {
+        joint,
+        shift: 0.0,
+        turn: 0.0,
+        relations: Vec::new(),
+    };
+    let mut out: Vec<NearJoint> = mechanism.joint_ids().map(near).collect();
+    let mut directions = Directions::new(mechanism, reach.angle);
+    let mut axes: Vec<Vector> = Vec::new();
+    for (joint, near) in mechanism.joints.iter().zip(&mut out) {
+        let axis = unit(real(&joint.frame.axis));
+        axes.push(if joint.joint_type.is_directed() {
+            directions.place(axis, near)
+        } else {
+            axis
+        });
+    }
+    for (joint, near) in mechanism.joints.iter().zip(&mut out) {
+        if joint.joint_type.has_second_axis() {
+            let axis = unit(real(&joint.frame.axis));
+            directions.place(unit(across(real(&joint.frame.reference), axis)), near);
+        }
+    }
+    let least = ROUND_OFF * size(mechanism);
+    let mut places: Vec<Place> = Vec::new();
+    for ((joint, near), axis) in mechanism.joints.iter().zip(&mut out).zip(axes) {
+        places.extend(Place::of(joint, near.joint, axis));
+        let Some((own, earlier)) = places.split_last().filter(|(p, _)| p.joint == near.joint)
+        else {
+            continue;
+        };
+        let found = earlier.iter().filter_map(|other| {
+            let (relation, shift) = own.relation(other)?;
+            (shift <= reach.length).then_some((relation, shift, other.joint))
+        });
+        let strongest = found.max_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        let inexact = |(relation, shift, _): &(Relation, f64, _)| {
+            *shift > least || (*relation == Relation::Coaxial && near.turn > ROUND_OFF)
+        };
+        if let Some((relation, shift, other)) = strongest.filter(inexact) {
+            near.relations.push((relation, Some(other)));
+            near.shift = shift;
+        }
+    }
+    out.retain(|x| x.turn > ROUND_OFF || x.shift > least);
+    out
+}
+
+/// The directions collected so far, with their joints: none for the global axes and the normal of a plane.
+struct Directions {
+    known: Vec<(Vector, Option<JointId>)>,
+    /// Maximum turn of a direction. `[rad]`
+    angle: f64,
+}
+
+/// A special direction, the relation it has, and the joint it refers to.
+type Special = (Vector, Relation, Option<JointId>);
+
+fn sine(a: Vector, b: Vector) -> f64 {
+    length(cross(a, b))
+}
+
+impl Directions {
+    fn new(mechanism: &Mechanism, angle: f64) -> Directions {
+        let normal = match &mechanism.mode {
+            Mode::Spatial => None,
+            Mode::Planar { normal } => Some(unit(real(normal))),
+        };
+        let known = normal.into_iter().chain([X, Y, Z]);
+        Directions {
+            known: known.map(|v| (v, None)).collect(),
+            angle,
+        }
+    }
+
+    /// Returns the special direction that a unit vector of a joint is within the angle of, or the vector itself, and
+    /// records its relation and the turn.
+    fn place(&mut self, v: Vector, near: &mut NearJoint) -> Vector {
+        let parallel = self.known.iter().map(|k| (k, sine(k.0, v)));
+        let parallel = parallel.filter(|(_, s)| *s <= self.angle);
+        let parallel = parallel.min_by(|a, b| a.1.total_cmp(&b.1));
+        let special: Option<Special> = match parallel {
+            Some((&(u, joint), _)) => Some((u, Relation::Parallel, joint)),
+            None => {
+                let found = self.square(v).or_else(|| self.in_plane(v));
+                let own = found.map_or(v, |(u, ..)| u);
+                self.known.push((own, Some(near.joint)));
+                found
             }
+        };
+        let Some((u, relation, joint)) = special else {
+            return v;
+        };
+        let turn = sine(u, v).min(1.0).asin();
+        if turn > ROUND_OFF {
+            near.turn = near.turn.max(turn);
+            near.relations.push((relation, joint));
         }
+        u
     }
-    turn(&mut out, reach.angle, &mut why);
-    for put in places(&out, reach.length) {
-        out.joints[put.joint].frame.point = put.point;
-        why[put.joint.index()].extend(put.relations);
+
+    /// Returns the direction perpendicular to two known directions, or to one.
+    fn square(&self, v: Vector) -> Option<Special> {
+        let square = self
+            .known
+            .iter()
+            .filter(|k| dot(k.0, v).abs() <= self.angle);
+        let square: Vec<&(Vector, Option<JointId>)> = square.collect();
+        let first = square.first()?.0;
+        let second = square.iter().find(|k| sine(first, k.0) > PLANE);
+        let both = second.map(|k| unit(cross(first, k.0)));
+        let special = both
+            .filter(|u| sine(*u, v) <= self.angle)
+            .unwrap_or_else(|| unit(across(v, first)));
+        Some((special, Relation::Square, square.iter().find_map(|k| k.1)))
     }
-    let pairs = mechanism.joints.iter().zip(&out.joints);
-    let all = mechanism.joint_ids().zip(pairs).zip(why);
-    all.filter(|((_, (written, special)), _)| !same(&special.frame, &written.frame))
-        .map(|((joint, (written, special)), relations)| NearJoint {
-            joint,
-            shift: shift(written, special),
-            turn: turned(written, special),
-            relations,
+
+    /// Returns the direction in the plane of two known directions of joints.
+    fn in_plane(&self, v: Vector) -> Option<Special> {
+        let own = self.known.iter().filter(|k| k.1.is_some());
+        own.tuple_combinations().find_map(|(a, b)| {
+            let normal = cross(a.0, b.0);
+            let near = length(normal) > PLANE && dot(unit(normal), v).abs() <= self.angle;
+            near.then(|| (unit(across(v, unit(normal))), Relation::InPlane, b.1))
         })
-        .filter(|x| {
-            // Allowance for the rounding of doubles.
-            let much = 1.0 + 1e-9;
-            x.shift <= much * reach.length && x.turn <= much * reach.angle
+    }
+}
+
+/// The relevant part of a joint's position: the line of its axis, or its point.
+struct Place {
+    joint: JointId,
+    point: Vector,
+    /// Direction of the line, or `None` for a point.
+    along: Option<Vector>,
+}
+
+impl Place {
+    /// Returns the place of a joint whose axis is this special direction, or `None` if the joint only slides.
+    fn of(joint: &Joint, id: JointId, axis: Vector) -> Option<Place> {
+        let turns = |f: &&Freedom| f.turns() || **f == Freedom::Screw;
+        let turning: Vec<&Freedom> = joint.joint_type.freedoms().iter().filter(turns).collect();
+        let along = match turning[..] {
+            [] => return None,
+            [Freedom::Rz | Freedom::Screw] => Some(axis),
+            _ => None,
+        };
+        Some(Place {
+            joint: id,
+            point: real(&joint.frame.point),
+            along,
         })
-        .collect()
-}
-
-/// Snaps axes and second axes.
-fn turn(m: &mut Mechanism, angle: f64, why: &mut [Vec<(Relation, Option<JointId>)>]) {
-    let normal = match &m.mode {
-        Mode::Spatial => None,
-        Mode::Planar { normal } => Some(normal),
-    };
-    let mut directions = Directions::new(angle, normal);
-    let ids = m.joint_ids();
-    for j in ids.clone() {
-        let joint = &mut m.joints[j];
-        if !joint.joint_type.is_directed() {
-            continue;
-        }
-        if let Some((axis, how, of)) = directions.place(&joint.frame.axis, j) {
-            joint.frame.axis = axis;
-            why[j.index()].push((how, of));
-        }
     }
-    for j in ids {
-        let joint = &mut m.joints[j];
-        if !joint.joint_type.has_second_axis() {
-            continue;
-        }
-        let x = across(&joint.frame.reference, &joint.frame.axis);
-        if let Some((x, how, of)) = directions.place(&x, j) {
-            joint.frame.reference = x;
-            why[j.index()].push((how, of));
-        }
-    }
-}
 
-/// Returns the distance of a joint's line or centre from its special position.
-fn shift(written: &Joint, special: &Joint) -> f64 {
-    let off = sub(real(&special.frame.point), real(&written.frame.point));
-    match kind(&written.joint_type) {
-        PlaceKind::Nowhere => 0.0,
-        PlaceKind::Line | PlaceKind::Centre => length(off),
+    /// Returns the relation that this place has to another if their distance is none, and that distance. Returns
+    /// `None` for parallel lines that are no longer the same, and for lines whose crossing is uncertain.
+    fn relation(&self, other: &Place) -> Option<(Relation, f64)> {
+        let off = sub(self.point, other.point);
+        let from = |u: Vector| length(add_scaled(off, -dot(off, u), u));
+        Some(match (self.along, other.along) {
+            (None, None) => (Relation::Concentric, length(off)),
+            (Some(u), None) | (None, Some(u)) => (Relation::Meeting, from(u)),
+            (Some(u), Some(w)) => {
+                let normal = cross(u, w);
+                match length(normal) {
+                    s if s <= ROUND_OFF => (Relation::Coaxial, from(w)),
+                    s if s > SKEW => (Relation::Meeting, dot(off, normal).abs() / s),
+                    _ => return None,
+                }
+            }
+        })
     }
-}
-
-/// Returns the angle of a joint's axes from their special directions.
-fn turned(written: &Joint, special: &Joint) -> f64 {
-    let angle = |a: Vector, b: Vector| {
-        let sine = length(vector::cross(unit(a), unit(b)));
-        sine.min(1.0).asin()
-    };
-    let (a, b) = (&written.frame, &special.frame);
-    let axis = angle(real(&a.axis), real(&b.axis));
-    if !written.joint_type.has_second_axis() {
-        return axis;
-    }
-    let x = |f: &Frame| real(&across(&f.reference, &f.axis));
-    axis.max(angle(x(a), x(b)))
-}
-
-fn same(a: &Frame, b: &Frame) -> bool {
-    let off = |x: &[Expr; 3], y: &[Expr; 3]| is_zero(&exact_vector::sub(x, y));
-    off(&a.point, &b.point) && off(&a.axis, &b.axis) && off(&a.reference, &b.reference)
 }

@@ -7,17 +7,15 @@
 
 use crate::closure::Closure;
 use crate::geom::Reals;
-use crate::meant::mechanism::{Meant as Scene, meant as scene_of};
+use crate::meant::mechanism::{Meant as Scene, meant as scene_of, moved_joints, understood};
 use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::model::rounded::{Rounded, Uncertainties, looks_rounded, uncertainties};
-use crate::rank::exact::field::field_of;
+use crate::rank::exact::field::closure_of;
 use crate::rank::exact::modular;
 use crate::rank::method::NoAnswer;
-use crate::rank::numeric::rounding_bound::bound;
 use crate::rank::numeric::scaling::NumericRank;
-use crate::rank::numeric::values::{ROUND_OFF, Values, relative_values};
+use crate::rank::numeric::values::{ROUND_OFF, Values, bound, relative_values};
 use crate::rank::reduce::sufficient_rows::LeastRows;
-use crate::rank::rounded::moves::{moved_joints, understood};
 use crate::rank::rounded::nearest_lower_rank::{Nearest, nearest};
 use crate::rank::rounded::size;
 
@@ -174,20 +172,16 @@ impl RankVerdict {
 
 /// Returns the exact rank, by the rows that are enough for it.
 fn exact_rank(mechanism: &Mechanism, state: StateId) -> Result<(usize, String), NoAnswer> {
-    let exact = field_of(mechanism, state, 0)?;
-    let closure = Closure::new(&exact, mechanism, state)?;
+    let (exact, closure) = closure_of(mechanism, state, 0)?;
     let least = LeastRows::new(&exact, mechanism, &closure)?;
     let words = least.words(mechanism, |c| closure.contours[c].name(mechanism));
     Ok((least.rank(), words))
 }
 
 /// Returns the exact rank of J of a snapped mechanism, by one prime.
-pub(in crate::rank) fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
-    let exact = field_of(mechanism, state, 0)?;
-    Ok(modular::rank(
-        &exact,
-        &Closure::new(&exact, mechanism, state)?,
-    ))
+fn rank_of(mechanism: &Mechanism, state: StateId) -> Result<usize, NoAnswer> {
+    let (exact, closure) = closure_of(mechanism, state, 0)?;
+    Ok(modular::rank(&exact, &closure))
 }
 
 /// Returns the verdict on a state.
@@ -209,12 +203,12 @@ pub fn verdict(mechanism: &Mechanism, state: StateId) -> Result<RankVerdict, NoA
 }
 
 /// Returns the intended scene, if the digits determine one.
-pub(in crate::rank) fn resolved(mechanism: &Mechanism) -> Option<Scene> {
+fn resolved(mechanism: &Mechanism) -> Option<Scene> {
     scene_of(mechanism).filter(|s| s.scene.moved <= FURTHEST)
 }
 
 /// Works as [`verdict`], with the intended scene known.
-pub(in crate::rank) fn verdict_on(
+fn verdict_on(
     mechanism: &Mechanism,
     state: StateId,
     scene: Option<&Scene>,
@@ -326,6 +320,52 @@ fn meant(mechanism: &Mechanism, state: StateId, rank: usize, half: &Uncertaintie
         },
         None => Meant::Undecided { near: rank },
     }
+}
+
+/// The intended mechanism, for exact arithmetic.
+#[derive(Debug, Clone, Default)]
+pub struct Settled {
+    /// The snapped mechanism if it is the intended one; `None` if the file is used as written.
+    pub snapped: Option<Mechanism>,
+    /// The mechanisms of other scenes that the digits do not exclude.
+    pub others: Vec<Mechanism>,
+    /// Description of the recovered relations, if the mechanism was snapped.
+    pub understood: Option<String>,
+    /// The verdicts on the states. Empty if every digit is exact, so that there is nothing to decide.
+    pub verdicts: Vec<RankVerdict>,
+    /// Index of the first verdict whose rank differs from that of the mechanism.
+    pub open: Option<usize>,
+}
+
+/// Determines which mechanism is intended in some states.
+///
+/// # Errors
+/// Returns an error in the same cases as [`verdict`].
+///
+/// # Guarantee
+/// If no verdict is open, the exact rank of J in each state is that of its verdict.
+pub fn settle(mechanism: &Mechanism, states: &[StateId]) -> Result<Settled, NoAnswer> {
+    let mut out = Settled::default();
+    if looks_rounded(mechanism).is_none() {
+        return Ok(out);
+    }
+    let scene = resolved(mechanism);
+    let each = |&s: &StateId| verdict_on(mechanism, s, scene.as_ref());
+    out.verdicts = states.iter().map(each).collect::<Result<_, _>>()?;
+    let snapped = scene.as_ref().filter(|s| s.scene.moved > 0.0);
+    let found = snapped.map_or(mechanism, |s| &s.mechanism);
+    for (i, (v, &state)) in out.verdicts.iter().zip(states).enumerate() {
+        if !v.is_decided() || rank_of(found, state)? != v.rank() {
+            out.open = Some(i);
+            return Ok(out);
+        }
+    }
+    if let Some(s) = snapped.filter(|s| !moved_joints(s).is_empty()) {
+        out.understood = Some(understood(s));
+        out.snapped = Some(s.mechanism.clone());
+    }
+    out.others = scene.map(|s| s.others).unwrap_or_default();
+    Ok(out)
 }
 
 #[cfg(test)]

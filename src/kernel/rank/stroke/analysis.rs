@@ -122,9 +122,7 @@ impl<'a> Looker<'a> {
         let m = request.mechanism;
         let slides = pose.columns[request.drive].freedom.slides();
         let middle = |l: LinkId| {
-            let of = m
-                .joints_in(request.state)
-                .filter(|&j| m.joints[j].links.contains(&l));
+            let of = m.joints_at(l, request.state);
             let points: Vec<[f64; 3]> = of
                 .map(|j| m.joints[j].frame.point.each_ref().map(|c| c.to_f64()))
                 .collect();
@@ -134,10 +132,7 @@ impl<'a> Looker<'a> {
                 (points.iter().map(|p| p[i]).sum::<f64>() / n - pose.middle[i]) / pose.length
             })
         };
-        let present = |l: &LinkId| {
-            m.joints_in(request.state)
-                .any(|j| m.joints[j].links.contains(l))
-        };
+        let present = |l: &LinkId| m.joints_at(*l, request.state).next().is_some();
         Looker {
             request,
             tolerance: request.tolerance.unwrap_or(FLAT),
@@ -327,9 +322,9 @@ impl<'a> Looker<'a> {
             .filter(|c| *c != self.request.drive && !self.request.held.contains(c))
             .collect();
         let whole = pose.jacobian_with(&paths, &[]);
-        let part = |rows: usize| Matrix::from_fn(rows, free.len(), |r, c| whole[(r, free[c])]);
-        let rank = |rows| rank_of_values(values(&part(rows)), self.tolerance).rank;
-        rank(whole.nrows()) - rank(pose.rows())
+        let rank =
+            |all: &Matrix| rank_of_values(values(&all.select_columns(&free)), self.tolerance).rank;
+        rank(&whole) - rank(&pose.jacobian(&vec![0.0; f]))
     }
 }
 

@@ -1,10 +1,9 @@
 //! The image of each joint under a mirror, or under half or a third of a turn, that maps the mechanism to itself: as the file says, or, if
 //! it says nothing, as the geometry shows.
 
-use crate::closure::mirror::Plane;
-use crate::closure::symmetry_image::{Carrier, Spot};
-use crate::closure::turn::{FrameDirections, Turn};
+use crate::closure::isometry::{Isometry, Spot, frame_directions};
 use crate::geom::exact::ExactField;
+use crate::geom::expr::Expr;
 use crate::geom::vector::length;
 use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, SearchSpec, StateId};
 use crate::search::question::symmetry::check;
@@ -82,15 +81,16 @@ impl OwnSymmetry {
             check(exact, &symmetric, state).is_ok()
         };
         let compared = ComparedJoints::new(mechanism);
-        let directions = FrameDirections::of(mechanism);
+        let directions = frame_directions(mechanism);
         let mut tried: Vec<OwnSymmetry> = Vec::new();
         let groups = mechanism.joint_ids().combinations(order);
         let groups = groups.take_while(|g| g[0].index() < FIRST);
         for group in groups.filter(|g| compared.may_be_images(g)) {
-            for (carrier, mirrored) in suggested(mechanism, &compared.spots, &directions, &group) {
-                let Some(groups) = compared.groups(mechanism, &*carrier, order) else {
+            for carrier in suggested(mechanism, &compared.spots, &directions, &group) {
+                let Some(groups) = compared.groups(mechanism, &carrier, order) else {
                     continue;
                 };
+                let mirrored = carrier.reflects;
                 let one = OwnSymmetry { groups, mirrored };
                 if tried.contains(&one) {
                     continue;
@@ -108,26 +108,23 @@ impl OwnSymmetry {
     }
 }
 
-/// Returns the mirrors and turns that may carry two or three joints to each other, and whether it is a mirror.
+/// Returns the mirrors and turns that may carry two or three joints to each other.
 fn suggested(
     mechanism: &Mechanism,
     spots: &[Spot],
-    directions: &FrameDirections,
+    directions: &[[[Expr; 3]; 3]],
     group: &[JointId],
-) -> impl Iterator<Item = (Box<dyn Carrier>, bool)> {
-    let planes = match *group {
-        [a, b] => Plane::among(mechanism, spots, &[(a, b)]),
+) -> impl Iterator<Item = Isometry> {
+    let mirrors = match *group {
+        [a, b] => Isometry::mirrors_among(mechanism, spots, &[(a, b)]),
         _ => Vec::new(),
     };
-    let planes = planes.into_iter();
-    let planes = planes.map(|(p, _)| (Box::new(p) as Box<dyn Carrier>, true));
     let turns = if group.len() == 3 || mechanism.joints.len() <= TURNED {
-        Turn::of_groups(mechanism, directions, &[group.to_vec()])
+        Isometry::turns(mechanism, directions, &[group.to_vec()])
     } else {
         Vec::new()
     };
-    let turns = turns.into_iter();
-    planes.chain(turns.map(|t| (Box::new(t) as Box<dyn Carrier>, false)))
+    mirrors.into_iter().map(|(mirror, _)| mirror).chain(turns)
 }
 
 /// A mechanism's joints as they are looked at for each candidate.
@@ -184,7 +181,7 @@ impl ComparedJoints {
     fn groups(
         &self,
         mechanism: &Mechanism,
-        carrier: &dyn Carrier,
+        carrier: &Isometry,
         order: usize,
     ) -> Option<Vec<Vec<JointId>>> {
         let close = |j: JointId, k: JointId| {

@@ -1,9 +1,7 @@
 //! Whether the mirror pairs of a file, or the groups that a turn carries round, carry the mechanism over to itself, so that a variant and its image have the same
 //! figures: links and joints, each with its options, exactly.
 
-use crate::closure::mirror::Plane;
-use crate::closure::symmetry_image::{Carrier, PlacedType, Spot};
-use crate::closure::turn::{FrameDirections, Turn};
+use crate::closure::isometry::{Isometry, PlacedType, Spot, frame_directions};
 use crate::geom::exact::{ExactError, ExactField};
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, LinkId, Mechanism, StateId};
@@ -154,17 +152,10 @@ fn images(
     joints: &[JointId],
 ) -> Result<(), MirrorError> {
     let mut off = None;
-    let planes = Plane::of_pairs(mechanism, &mechanism.search.mirror);
-    let turns = Turn::of_groups(
-        mechanism,
-        &FrameDirections::of(mechanism),
-        &mechanism.search.turn,
-    );
-    let carriers = planes
-        .iter()
-        .map(|(plane, _)| plane as &dyn Carrier)
-        .chain(turns.iter().map(|turn| turn as &dyn Carrier));
-    for carrier in carriers {
+    let mirrors = Isometry::mirrors(mechanism, &mechanism.search.mirror);
+    let turns = &mechanism.search.turn;
+    let turns = Isometry::turns(mechanism, &frame_directions(mechanism), turns);
+    for carrier in mirrors.iter().map(|(mirror, _)| mirror).chain(&turns) {
         match by_carrier(exact, mechanism, joints, carrier) {
             // What is off in the likeliest plane is what a person wants to hear of.
             Err(e @ MirrorError::Off { .. }) => off = off.or(Some(e)),
@@ -178,7 +169,7 @@ fn by_carrier(
     exact: &ExactField,
     mechanism: &Mechanism,
     joints: &[JointId],
-    carrier: &dyn Carrier,
+    carrier: &Isometry,
 ) -> Result<(), MirrorError> {
     for &j in joints {
         let (a, b) = (

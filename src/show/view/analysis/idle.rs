@@ -2,8 +2,8 @@
 
 use crate::format::{plural, plural_of};
 use crate::model::mechanism::Mechanism;
-use crate::redundancy::drives::DriveFault;
 use crate::redundancy::local_mobility::Idle;
+use crate::redundancy::motion::DriveFault;
 use itertools::Itertools;
 
 /// "link 5 spins about the line through 4-5 and 5-1".

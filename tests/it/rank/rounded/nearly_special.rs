@@ -2,8 +2,7 @@
 
 use crate::common::*;
 use ozols::geom::vector::{Vector, dot, unit};
-use ozols::rank::rounded::nearly_special::nearly_special;
-use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
+use ozols::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special};
 use ozols::rank::rounded::size;
 
 /// A chain of joints, each with its type, point and axis.

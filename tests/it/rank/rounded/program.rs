@@ -3,8 +3,7 @@
 use crate::common::*;
 use ozols::model::rounded::{looks_rounded, uncertainties};
 use ozols::rank::method::registry;
-use ozols::rank::rounded::nearly_special::nearly_special;
-use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
+use ozols::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special};
 use ozols::rank::rounded::size;
 
 /// The built-in four-bar tilted by 30 degrees about x, to so many decimals, its axes within the last of them.

@@ -4,12 +4,12 @@ use super::search_numeric::{plain, turned};
 use crate::common::*;
 use ozols::geom::Reals;
 use ozols::meant::mechanism::{Meant, meant};
+use ozols::meant::mechanism::{moved_joints, understood};
 use ozols::model::rounded::uncertainties;
 use ozols::rank::numeric::scaling::{Scaling, scaled};
-use ozols::rank::rounded::intended::settle;
-use ozols::rank::rounded::moves::{moved_joints, understood};
 use ozols::rank::rounded::nearly_special::reach;
 use ozols::rank::rounded::size;
+use ozols::rank::rounded::verdict::settle;
 use ozols::rank::rounded::verdict::verdict;
 use ozols_dense::singular_values;
 

@@ -300,7 +300,7 @@ fn pass(
 }
 
 /// Returns the vector product.
-pub(super) fn cross(f: Field, a: Three, b: Three) -> Three {
+fn cross(f: Field, a: Three, b: Three) -> Three {
     let minor = |i: usize, j: usize| f.sub(f.mul(a[i], b[j]), f.mul(a[j], b[i]));
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }

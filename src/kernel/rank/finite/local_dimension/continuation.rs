@@ -4,10 +4,22 @@
 //! a fifth of a radian, which no double resolves. At a radian and more, all orders are visible. So a motion is followed
 //! by predictor and corrector [Allgower & Georg 1990, ch. 2] until some coordinate has gone that far. It may pass dead
 //! points and turn back on the way. Coordinates are measured from one pose, so that gaps do not accumulate unseen.
+//!
+//! Poses are closed to a fraction of the mechanism's size, and singular values below another fraction are zero. The
+//! effect of a link of a thousand-millionth of that size is smaller than both. Following the motion gives no
+//! information about it.
 
+use crate::closure::twist::FrameValues;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::extent::Extent;
+use crate::geom::vector::{across, length, sub, unit};
+use crate::geom::{Reals, Scalars};
+use crate::linalg::modp::Residue;
+use crate::model::joint_type::Freedom;
+use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::{FLAT, Pose};
-use crate::rank::finite::local_dimension::{DimensionSearch, along, norm};
-use ozols_dense::{Matrix, svd};
+use crate::rank::finite::local_dimension::DimensionSearch;
+use ozols_dense::{Matrix, add_scaled, difference, dot, largest, norm, svd};
 
 /// Distance that a motion must cover, by the coordinate that moves most from step to step: radians, or fractions of the
 /// size.
@@ -24,10 +36,6 @@ const APART: f64 = 0.3;
 /// Number of directions tried from a pose before it counts as isolated.
 const TRIES: usize = 3;
 
-fn largest(q: &[f64]) -> f64 {
-    q.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
-}
-
 impl DimensionSearch {
     /// Returns whether a motion in a random direction of some orthonormal columns, all being motions, continues. With
     /// `apart`, returns whether [all of them do](Self::lead_apart). Returns `None` if the budget is spent.
@@ -38,7 +46,7 @@ impl DimensionSearch {
         }
         let here = vec![0.0; span.nrows()];
         for _ in 0..TRIES {
-            let direction = along(span, &self.direction(n));
+            let direction = span.combined(&self.direction(n));
             if self.goes_on(pose, &here, &direction, n)? {
                 return Some(true);
             }
@@ -54,7 +62,7 @@ impl DimensionSearch {
         let here = vec![0.0; span.nrows()];
         let mut ends: Vec<Vec<f64>> = Vec::new();
         for _ in 0..TRIES * n {
-            let direction = along(span, &self.direction(n));
+            let direction = span.combined(&self.direction(n));
             let Some(end) = self.end_of(pose, &here, &direction, n)? else {
                 continue;
             };
@@ -99,22 +107,14 @@ impl DimensionSearch {
                 return Some(None);
             };
             let next = loop {
-                let guess: Vec<f64> = q.iter().zip(&tangent).map(|(q, t)| q + step * t).collect();
+                let guess = add_scaled(&q, step, &tangent);
                 // This equation only fixes the step along the tangent. Everything else is corrected as little as
                 // possible.
                 let size = norm(&tangent);
                 let row: Vec<f64> = tangent.iter().map(|t| t / size).collect();
-                let beside = |x: &[f64]| {
-                    let ahead: f64 = x
-                        .iter()
-                        .zip(&guess)
-                        .zip(&row)
-                        .map(|((x, g), t)| (x - g) * t)
-                        .sum();
-                    vec![(ahead, row.clone())]
-                };
+                let beside = |x: &[f64]| vec![(dot(&difference(x, &guess), &row), row.clone())];
                 let (closed, gap) = self.close(pose, guess.clone(), &beside)?;
-                let corrected: Vec<f64> = closed.iter().zip(&guess).map(|(a, b)| a - b).collect();
+                let corrected = difference(&closed, &guess);
                 if gap <= pose.closed() && largest(&corrected) <= CORRECTION * step {
                     break closed;
                 }
@@ -123,7 +123,7 @@ impl DimensionSearch {
                     return Some(None);
                 }
             };
-            onward = next.iter().zip(&q).map(|(a, b)| a - b).collect();
+            onward = difference(&next, &q);
             way += step;
             step = (1.5 * step).min(LONGEST);
             q = next;
@@ -143,15 +143,98 @@ fn tangent(pose: &Pose, q: &[f64], onward: &[f64], least: usize) -> Option<Vec<f
         return None;
     }
     let weights: Vec<f64> = (0..kernel.ncols())
-        .map(|c| {
-            onward
-                .iter()
-                .enumerate()
-                .map(|(r, x)| kernel[(r, c)] * x)
-                .sum()
-        })
+        .map(|c| dot(kernel.col(c), onward))
         .collect();
-    let tangent = along(&kernel, &weights);
+    let tangent = kernel.combined(&weights);
     let size = largest(&tangent);
     (norm(&weights) > 0.0 && size > 0.0).then(|| tangent.iter().map(|t| t / size).collect())
+}
+
+/// The smallest length that following resolves, relative to the size of the mechanism.
+const FINEST: f64 = 1e-5;
+
+/// Returns true if every length is large enough to be resolved relative to the whole mechanism: links between turning
+/// joints, pitches, and ratios of a slide to a turn. Exact zeros do not count as lengths.
+///
+/// # Errors
+/// Returns an error if a coordinate has no value.
+pub(in crate::rank::finite) fn lengths_are_alike(
+    exact: &ExactField,
+    mechanism: &Mechanism,
+    state: StateId,
+) -> Result<bool, ExactError> {
+    let turning: Vec<JointId> = mechanism
+        .joints_in(state)
+        .filter(|&j| {
+            let mut freedoms = mechanism.joints[j].joint_type.freedoms().iter();
+            freedoms.any(|f| !f.slides())
+        })
+        .collect();
+    let all = mechanism.joints_in(state);
+    let frames = |j: JointId| FrameValues::new(&Reals, &mechanism.joints[j].frame);
+    let residues = |j: JointId| FrameValues::new(exact, &mechanism.joints[j].frame);
+    let points = all.map(|j| frames(j).map(|f| f.point));
+    let size = Extent::of(&points.collect::<Result<Vec<_>, _>>()?).length;
+    let seen = |x: f64| x.abs() >= FINEST * size;
+    for (i, &a) in turning.iter().enumerate() {
+        let (of, frame, exactly) = (&mechanism.joints[a], frames(a)?, residues(a)?);
+        let screws = of.joint_type.freedoms().contains(&Freedom::Screw);
+        if screws && exactly.pitch != 0 && !seen(frame.pitch) {
+            return Ok(false);
+        }
+        for &b in &turning[i + 1..] {
+            let other = &mechanism.joints[b];
+            if !of.links.iter().any(|l| other.links.contains(l)) {
+                continue;
+            }
+            let (to, there) = (frames(b)?, residues(b)?);
+            let apart = sub(to.point, frame.point);
+            // The position of the points along parallel axes does not matter.
+            let distance = match separation(exact, &exactly, &there) {
+                Separation::None => continue,
+                Separation::OfParallelAxes => length(across(apart, unit(frame.axes[2]))),
+                Separation::OfPoints => length(apart),
+            };
+            if !seen(distance) {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(mechanism.couplings_in(state).all(|c| {
+        let ratio = c.ratio.to_f64();
+        match c.ends.map(|e| e.freedom.slides()) {
+            [false, true] => seen(ratio),
+            [true, false] => seen(1.0 / ratio),
+            _ => (FINEST..1.0 / FINEST).contains(&ratio.abs()),
+        }
+    }))
+}
+
+/// Separation of two joints.
+enum Separation {
+    /// One axis, or one point.
+    None,
+    OfParallelAxes,
+    OfPoints,
+}
+
+/// Returns the separation of two joints, by exact arithmetic. Doubles cannot distinguish a small length from zero.
+fn separation(
+    exact: &ExactField,
+    a: &FrameValues<Residue>,
+    b: &FrameValues<Residue>,
+) -> Separation {
+    let apart: [Residue; 3] = std::array::from_fn(|i| exact.sub(b.point[i], a.point[i]));
+    if exact.cross(a.axes[2], b.axes[2]) != [0; 3] {
+        return if apart == [0; 3] {
+            Separation::None
+        } else {
+            Separation::OfPoints
+        };
+    }
+    if exact.cross(apart, a.axes[2]) == [0; 3] {
+        Separation::None
+    } else {
+        Separation::OfParallelAxes
+    }
 }

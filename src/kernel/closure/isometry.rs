@@ -1,0 +1,415 @@
+//! Reflections and turns of space: whether the joints grouped in a file are images of each other in one plane or about
+//! one axis, and their deviations.
+
+use crate::closure::twist::{FrameValues, MotionSpace, joint_twists};
+use crate::format::brief;
+use crate::geom::Scalars;
+use crate::geom::exact::{ExactError, ExactField};
+use crate::geom::expr::Expr;
+use crate::geom::vector::{Vector, add, cross, dot, length, real, sub};
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::model::joint_type::JointType;
+use crate::model::mechanism::{Frame, Joint, JointId, Mechanism, Mode};
+
+/// Position of a joint, in numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spot {
+    /// Its point.
+    pub point: Vector,
+    /// Its axis.
+    pub axis: Vector,
+}
+
+impl Spot {
+    /// Returns the position of a joint's frame.
+    #[must_use]
+    pub(crate) fn of(frame: &Frame) -> Spot {
+        Spot {
+            point: real(&frame.point),
+            axis: real(&frame.axis),
+        }
+    }
+
+    /// Returns the positions of all joints.
+    pub(crate) fn of_joints(mechanism: &Mechanism) -> Vec<Spot> {
+        let joints = mechanism.joint_ids();
+        joints
+            .map(|j| Spot::of(&mechanism.joints[j].frame))
+            .collect()
+    }
+}
+
+/// A joint type at a position, which determines the allowed motions.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlacedType<'a> {
+    /// Its frame.
+    pub frame: &'a Frame,
+    /// The type.
+    pub joint_type: &'a JointType,
+}
+
+/// Deviation of the image of a joint from the joint it is paired with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Miss {
+    /// Distance of their points, or of their axes if the joint is the same all along its axis. In the file's unit.
+    pub distance: f64,
+    /// Angle between their axes, in radians.
+    pub angle: f64,
+}
+
+impl Miss {
+    /// Computes the deviation of a joint from the new position of its point and axis.
+    fn new(image: Spot, of: &JointType, to: Spot) -> Miss {
+        let own = to.axis;
+        let off = sub(image.point, to.point);
+        let sine = length(cross(image.axis, own));
+        let angle = match of {
+            JointType::Spherical | JointType::Fixed => 0.0,
+            _ => sine.atan2(dot(image.axis, own).abs()),
+        };
+        let distance = match of {
+            JointType::Prismatic => 0.0,
+            JointType::Revolute | JointType::Cylindrical | JointType::Helical => {
+                length(cross(off, own)) / length(own)
+            }
+            _ => length(off),
+        };
+        Miss { distance, angle }
+    }
+
+    /// Returns distance and angle combined into one number for comparisons.
+    fn size(&self) -> f64 {
+        self.distance + self.angle
+    }
+
+    /// Describes the deviation, such as "2.062 cm and 0.5°"; `unit` is that of the file.
+    #[must_use]
+    pub fn words(&self, unit: &str) -> String {
+        let number = |x: f64| {
+            if x < 1e-3 {
+                format!("{x:.3e}")
+            } else {
+                brief(x)
+            }
+        };
+        let distance = format!("{} {unit}", number(self.distance));
+        match self.angle.to_degrees() {
+            0.0 => distance,
+            angle => format!("{distance} and {}°", number(angle)),
+        }
+    }
+}
+
+/// A reflection in a plane, or half or a third of a turn about an axis, that may map a mechanism to itself.
+#[derive(Debug, Clone)]
+pub struct Isometry {
+    /// Two or three points that it maps to each other; their middle is on the axis, or in the plane.
+    round: Vec<ExactVector>,
+    /// The axis, or the normal of the plane.
+    axis: ExactVector,
+    /// Whether it is a reflection and not a turn.
+    pub(crate) reflects: bool,
+    /// The middle of the points and the axis, in numbers.
+    centre: Vector,
+    along: Vector,
+}
+
+/// The directions of each joint's frame in a mechanism, along which axes of turns may lie.
+#[must_use]
+pub(crate) fn frame_directions(mechanism: &Mechanism) -> Vec<[ExactVector; 3]> {
+    let of = |j: &Joint| {
+        let [z, x] = [&j.frame.axis, &j.frame.reference];
+        [z.clone(), x.clone(), cross_exactly(z, x)]
+    };
+    mechanism.joints.iter().map(of).collect()
+}
+
+impl Isometry {
+    fn new(round: Vec<ExactVector>, axis: ExactVector, reflects: bool) -> Isometry {
+        let points: Vec<Vector> = round.iter().map(real).collect();
+        #[allow(clippy::cast_precision_loss, reason = "two or three")]
+        let count = points.len() as f64;
+        Isometry {
+            centre: [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / count),
+            along: real(&axis),
+            round,
+            axis,
+            reflects,
+        }
+    }
+
+    /// Returns the reflection that maps two points to each other.
+    fn mirror(one: ExactVector, other: ExactVector) -> Isometry {
+        let normal = difference(&other, &one);
+        Isometry::new(vec![one, other], normal, true)
+    }
+
+    /// Returns the reflections in which a pair of joints may be images. The plane lies midway between their points. If
+    /// the points coincide, it is perpendicular to a direction of the first joint or lies between the two axes. It may
+    /// also pass through a third point that is its own image.
+    fn mirrors_of(one: &Frame, other: &Frame, own: &[&ExactVector]) -> Vec<Isometry> {
+        let [p, q] = [&one.point, &other.point];
+        if real(p) != real(q) {
+            return vec![Isometry::mirror(p.clone(), q.clone())];
+        }
+        let [z, x, w] = [&one.axis, &one.reference, &other.axis];
+        let mut normals = vec![
+            z.clone(),
+            x.clone(),
+            cross_exactly(z, x),
+            difference(z, w),
+            sum(z, w),
+        ];
+        normals.extend(own.iter().map(|o| cross_exactly(z, &difference(o, p))));
+        normals.retain(|n| length(real(n)) > 0.0);
+        let mirror = |n: &ExactVector| Isometry::mirror(difference(p, n), sum(p, n));
+        normals.iter().map(mirror).collect()
+    }
+
+    /// Returns the reflections in which the pairs may be images, the most likely first, with the deviation of every
+    /// pair. The pairs themselves suggest the planes, which are ranked by most of the pairs, and then by all joints if
+    /// these agree.
+    #[must_use]
+    pub fn mirrors(
+        mechanism: &Mechanism,
+        pairs: &[(JointId, JointId)],
+    ) -> Vec<(Isometry, Vec<Miss>)> {
+        Isometry::mirrors_among(mechanism, &Spot::of_joints(mechanism), pairs)
+    }
+
+    /// Returns the reflections for joints with known positions, as `mirrors` does for a mechanism.
+    pub(crate) fn mirrors_among(
+        mechanism: &Mechanism,
+        spots: &[Spot],
+        pairs: &[(JointId, JointId)],
+    ) -> Vec<(Isometry, Vec<Miss>)> {
+        let frame = |j: JointId| &mechanism.joints[j].frame;
+        let point = |j: JointId| &frame(j).point;
+        let at_one_point = |&&(a, b): &&_| real(point(a)) == real(point(b));
+        let own = pairs.iter().filter(at_one_point);
+        let own: Vec<_> = own.map(|p| point(p.0)).collect();
+        let mirrors = pairs
+            .iter()
+            .flat_map(|&(a, b)| Isometry::mirrors_of(frame(a), frame(b), &own));
+        let paired = |j: JointId| pairs.iter().any(|&(a, b)| j == a || j == b);
+        let alone: Vec<JointId> = mechanism.joint_ids().filter(|&j| !paired(j)).collect();
+        let spot = |j: JointId| spots[j.index()];
+        let judged = mirrors.map(|mirror| {
+            let miss =
+                |a: JointId, b| mirror.miss(spot(a), &mechanism.joints[a].joint_type, spot(b));
+            let misses: Vec<Miss> = pairs.iter().map(|&(a, b)| miss(a, b)).collect();
+            let mut off: Vec<f64> = misses.iter().map(Miss::size).collect();
+            off.sort_by(f64::total_cmp);
+            // The median comes first, because one wrong pair must not choose the plane.
+            let all =
+                off.iter().sum::<f64>() + alone.iter().map(|&j| miss(j, j).size()).sum::<f64>();
+            let key = (off[off.len() / 2], all);
+            (key, (mirror, misses))
+        });
+        let mut judged: Vec<_> = judged.collect();
+        judged.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        judged.into_iter().map(|(_, mirror)| mirror).collect()
+    }
+
+    /// Returns the turns that groups of joints suggest. Three points determine the turn. Two points determine only the
+    /// middle. The axis is then along a direction of their joints, between or across these, or along a direction of a
+    /// joint that is its own image.
+    #[must_use]
+    pub(crate) fn turns(
+        mechanism: &Mechanism,
+        directions: &[[ExactVector; 3]],
+        groups: &[Vec<JointId>],
+    ) -> Vec<Isometry> {
+        let frame = |j: &JointId| &mechanism.joints[*j].frame;
+        let directions = |j: JointId| directions[j.index()].iter().cloned();
+        let alone = mechanism.joint_ids();
+        let alone = alone.filter(|j| !groups.iter().any(|g| g.contains(j)));
+        let mut out = Vec::new();
+        for group in groups {
+            let round: Vec<ExactVector> = group.iter().map(|j| frame(j).point.clone()).collect();
+            let axes: Vec<ExactVector> = match &round[..] {
+                [a, b, c] => vec![cross_exactly(&difference(b, a), &difference(c, a))],
+                _ => {
+                    let [z, w] = [0, 1].map(|i| &frame(&group[i]).axis);
+                    let own = directions(group[0]).chain([sum(z, w), difference(z, w)]);
+                    own.chain(alone.clone().flat_map(directions)).collect()
+                }
+            };
+            // Joints of a plane share their directions.
+            let mut known: Vec<Vector> = Vec::new();
+            for axis in axes {
+                let along = real(&axis);
+                if length(along) == 0.0 || known.contains(&along) {
+                    continue;
+                }
+                known.push(along);
+                out.push(Isometry::new(round.clone(), axis, false));
+            }
+        }
+        out
+    }
+
+    /// Returns the image of a joint, in numbers.
+    pub(crate) fn image(&self, spot: Spot) -> Spot {
+        let (centre, n) = (self.centre, self.along);
+        let nn = dot(n, n);
+        let (sine, cosine) = match self.round.len() {
+            3 => (std::f64::consts::TAU / 3.0).sin_cos(),
+            _ => (0.0, -1.0),
+        };
+        // A reflection is the opposite of half a turn.
+        let sign = if self.reflects { -1.0 } else { 1.0 };
+        let linear = |v: Vector| {
+            let (across, along) = (cross(n, v), (1.0 - cosine) * dot(v, n) / nn);
+            let turned = |i: usize| cosine * v[i] + sine / nn.sqrt() * across[i] + along * n[i];
+            [0, 1, 2].map(|i| sign * turned(i))
+        };
+        Spot {
+            point: add(centre, linear(sub(spot.point, centre))),
+            axis: linear(spot.axis),
+        }
+    }
+
+    /// Returns the map of space in exact numbers, or `None` if lengths change.
+    ///
+    /// # Errors
+    /// Returns an error if a coordinate has no value in the field.
+    pub(crate) fn map(&self, exact: &ExactField) -> Result<Option<Map>, ExactError> {
+        let f = exact.field();
+        let n = exact.eval3(&self.axis)?;
+        let square = exact.dot(n, n);
+        let points = self.round.iter().map(|p| exact.eval3(p));
+        let points: Vec<[Residue; 3]> = points.collect::<Result<_, _>>()?;
+        let number = |x: i64| f.from_i64(x);
+        let third = points.len() == 3;
+        let part = f.inv(number(if third { 3 } else { 2 }));
+        let centre = [0, 1, 2].map(|i| f.sum_of_products(points.iter().map(|p| (part, p[i]))));
+        let half = f.inv(number(2));
+        // v cos + n × v sin / |n| + n (n·v) (1 - cos) / |n|²; for an equilateral triangle, sin / |n| is 1 / side².
+        let (cosine, sine, rest) = if third {
+            let side = [0, 1, 2].map(|i| f.sub(points[1][i], points[0][i]));
+            let side = exact.dot(side, side);
+            let quarters = f.mul(number(3), f.mul(side, side));
+            if f.mul(number(4), square) != quarters {
+                return Ok(None);
+            }
+            (f.neg(half), f.inv(side), f.mul(number(3), half))
+        } else {
+            (number(-1), f.zero(), number(2))
+        };
+        let rest = f.mul(rest, f.inv(square));
+        let linear = |v: [Residue; 3]| {
+            let (across, along) = (exact.cross(n, v), f.mul(rest, exact.dot(n, v)));
+            [0, 1, 2].map(|i| {
+                let products = [(cosine, v[i]), (sine, across[i]), (along, n[i])];
+                let turned = f.sum_of_products(products);
+                if self.reflects { f.neg(turned) } else { turned }
+            })
+        };
+        let unit = |i: usize| [0, 1, 2].map(|j| if i == j { f.one() } else { f.zero() });
+        let moved = linear(centre);
+        Ok(Some(Map {
+            linear: [0, 1, 2].map(|i| linear(unit(i))),
+            shift: [0, 1, 2].map(|i| f.sub(centre[i], moved[i])),
+            reflects: self.reflects,
+        }))
+    }
+
+    /// Returns the deviation of the image of a joint of a type from a position.
+    #[must_use]
+    pub(crate) fn miss(&self, from: Spot, of: &JointType, to: Spot) -> Miss {
+        Miss::new(self.image(from), of, to)
+    }
+
+    /// Returns true if the image of a joint allows exactly the motions of another.
+    ///
+    /// # Errors
+    /// Returns an error if a coordinate has no value in the field.
+    pub(crate) fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        from: PlacedType<'_>,
+        to: PlacedType<'_>,
+    ) -> Result<bool, ExactError> {
+        match self.map(exact)? {
+            Some(map) => map.carries(exact, mode, from, to),
+            None => Ok(false),
+        }
+    }
+}
+
+/// An exact vector in space.
+type ExactVector = [Expr; 3];
+
+fn difference(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    [0, 1, 2].map(|i| &a[i] - &b[i])
+}
+
+fn sum(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    [0, 1, 2].map(|i| &a[i] + &b[i])
+}
+
+fn cross_exactly(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    let minor = |i: usize, j: usize| &(&a[i] * &b[j]) - &(&a[j] * &b[i]);
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// Map of space: x maps to `linear`·x + `shift`, and lengths are preserved.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Map {
+    /// Images of x, y and z.
+    linear: [[Residue; 3]; 3],
+    /// Image of the origin.
+    shift: [Residue; 3],
+    /// Whether the map reverses orientation.
+    reflects: bool,
+}
+
+impl Map {
+    fn direction(&self, f: Field, v: [Residue; 3]) -> [Residue; 3] {
+        [0, 1, 2].map(|i| {
+            let columns = self.linear.iter().zip(v);
+            f.sum_of_products(columns.map(|(c, x)| (c[i], x)))
+        })
+    }
+
+    fn carries(
+        &self,
+        exact: &ExactField,
+        mode: &Mode,
+        from: PlacedType<'_>,
+        to: PlacedType<'_>,
+    ) -> Result<bool, ExactError> {
+        let f = exact.field();
+        // A turn about u is a turn about -u in a mirror. The body point at the origin is the image of that at the
+        // shift.
+        let image = |[w0, w1, w2, v0, v1, v2]: [Residue; 6]| {
+            let turned = self.direction(f, [w0, w1, w2]);
+            let w = if self.reflects {
+                turned.map(|x| f.neg(x))
+            } else {
+                turned
+            };
+            let arm = exact.cross(self.shift, w);
+            let v = self.direction(f, [v0, v1, v2]);
+            let at = |i: usize| f.add(v[i], arm[i]);
+            [w[0], w[1], w[2], at(0), at(1), at(2)]
+        };
+        let space = MotionSpace::new(exact, mode)?;
+        let freedoms = from.joint_type.freedoms();
+        let values = FrameValues::new(exact, from.frame)?;
+        let (mut images, mut own) = (Echelon::new(f), Echelon::new(f));
+        for (_, twist) in values.motions(exact, &space, freedoms) {
+            match space.components(exact, &image(twist)) {
+                Some(t) => images.insert(&t),
+                None => return Ok(false),
+            };
+        }
+        for (_, t) in joint_twists(exact, &space, to.frame, to.joint_type)? {
+            own.insert(&t);
+        }
+        Ok(images.reduced() == own.reduced())
+    }
+}
