@@ -91,11 +91,10 @@ impl Search {
         build::build_in(self, orders, cancelled, progress)
     }
 
-    /// Returns whether all [minimal variants](Self::minimal_variants) of another search are determinate here, or `None`
-    /// if that cannot be decided without diagrams.
+    /// Returns whether all variants of another search's diagram are determinate here.
     #[must_use]
-    pub fn has_all(&self, known: &Diagram) -> Option<bool> {
-        build::known_variants::has_all(self, known)
+    pub fn has_all(&self, known: &Diagram) -> bool {
+        build::has_all(self, known)
     }
 
     /// Returns the counts of the variants of a diagram; `filter` also applies the conditions on mobility and changes.

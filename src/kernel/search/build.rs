@@ -3,15 +3,12 @@
 pub(in crate::search) mod at_most;
 pub(in crate::search) mod completing_sets;
 mod estimates;
-mod known_spaces;
-pub(in crate::search) mod known_variants;
 pub(in crate::search) mod lanes;
 mod matching_halves;
 pub mod orders;
-mod path_tree;
 pub(in crate::search) mod self_stress;
 pub(in crate::search) mod spanning_halves;
-mod spanning_paths;
+mod spanning_pairs;
 pub(in crate::search) mod two_sided;
 
 use crate::search::answer::estimate::Estimate;
@@ -24,13 +21,15 @@ use crate::search::build::self_stress::{Wanted, limits, nothing};
 use crate::search::build::spanning_halves::Halves;
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
-use crate::search::diagram::layer::CUT;
+use crate::search::diagram::layer::{CUT, DEAD, Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{self, Diagram, Progress, Stop};
+use crate::search::diagram::{self, Diagram, Progress, Stop, next};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
+use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::Zero;
+use std::collections::BTreeSet;
 
 /// Diagrams of one question.
 #[derive(Debug)]
@@ -282,4 +281,58 @@ fn prove(
         admissible.stop = Stop::Interrupted;
     }
     cheapest
+}
+
+/// Returns whether every variant of a diagram is determinate in a question, with the same redundant constraints. The spaces that variants of
+/// the diagram lead to are followed layer by layer, and no others.
+///
+/// # Complexity
+/// That of the diagram of the question at most, and O(n·choices) for n pairs of a node of the diagram and a space.
+pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
+    let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
+    let limits = limits(question);
+    let Lanes { stages, root } = Lanes::new(question, &order, &limits, Wanted::Determinate);
+    let mut nodes = Nodes::root(root);
+    let mut reached = BTreeSet::from([(0, 0)]);
+    for (stage, layer) in stages.iter().zip(&known.layers) {
+        let edges = nodes.len() * layer.choices;
+        let merge = next(
+            stage,
+            &question.space.variables[layer.variable].choices,
+            limits.bytes,
+            &nodes,
+            Merge::new(usize::MAX, usize::MAX, Stop::Exhausted, edges),
+            |_, _, _| false,
+            &|| false,
+            &mut |_| {},
+        );
+        let mut below = BTreeSet::new();
+        for &(space, node) in &reached {
+            for choice in 0..layer.choices {
+                let to = layer.edges[node as usize * layer.choices + choice];
+                let space = merge.edges[space as usize * layer.choices + choice];
+                match (space, to) {
+                    (_, DEAD) => {}
+                    (DEAD, _) => return false,
+                    both => drop(below.insert(both)),
+                }
+            }
+        }
+        let kept: Vec<usize> = below
+            .iter()
+            .map(|(space, _)| *space as usize)
+            .dedup()
+            .collect();
+        let place = |space: u32| kept.partition_point(|&k| k < space as usize) as u32;
+        reached = below
+            .iter()
+            .map(|&(space, node)| (place(space), node))
+            .collect();
+        nodes = merge.next;
+        nodes.retain(&kept);
+    }
+    let mut ends = reached.iter();
+    ends.all(|&(space, node)| {
+        nodes.spent[space as usize].redundancy() == known.terminals[node as usize]
+    })
 }

@@ -38,10 +38,20 @@ pub(super) struct Grouped {
 }
 
 impl Grouped {
-    /// Takes the next node, by its rows in reduced form, with the motion of kept links as the last number. One that moves these and closes
-    /// every contour is completed by none.
-    pub(super) fn take(&mut self, node: usize, mut rows: Vec<Vec<Residue>>) {
-        self.nodes += 1;
+    /// Groups nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves these and
+    /// closes every contour is completed by none.
+    pub(super) fn of(nodes: &[Vec<Vec<Residue>>]) -> Grouped {
+        let mut grouped = Grouped {
+            nodes: nodes.len(),
+            ..Grouped::default()
+        };
+        for (node, rows) in nodes.iter().enumerate() {
+            grouped.take(node, rows.clone());
+        }
+        grouped
+    }
+
+    fn take(&mut self, node: usize, mut rows: Vec<Vec<Residue>>) {
         let moved: Vec<Residue> = rows.iter_mut().filter_map(Vec::pop).collect();
         let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
         let Some(pivots) = rows.iter().map(pivot).collect() else {

@@ -7,7 +7,7 @@
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::{Adding, Columns, Grown};
+use crate::search::diagram::stage::{Adding, Columns};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
@@ -84,31 +84,9 @@ pub(in crate::search) fn space(
     SelfStressSpace::new(field, &rows, times, space, order, &present, of_choice)
 }
 
-/// A stage of all that the kept links do.
-pub(in crate::search) struct Added {
-    field: Field,
-    stage: Adding,
-}
-
-impl Added {
-    pub(in crate::search) fn new(field: Field, stage: Adding) -> Self {
-        Added { field, stage }
-    }
-
-    /// What its choices add, one grown from another.
-    pub(in crate::search) fn growth(&self) -> &[Grown] {
-        &self.stage.columns.growth
-    }
-
-    /// The coordinates of contours in use.
-    pub(in crate::search) fn contours(&self) -> &[usize] {
-        &self.stage.contours
-    }
-}
-
-impl Carries for Added {
+impl Carries for Adding {
     fn variable(&self) -> usize {
-        self.stage.variable
+        self.variable
     }
 
     fn worker(&self) -> Worker {
@@ -116,11 +94,11 @@ impl Carries for Added {
     }
 
     fn effort(&self, bytes: usize) -> usize {
-        bytes / size_of::<Residue>() * self.stage.columns.width
+        bytes / size_of::<Residue>() * self.columns.width
     }
 
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        worker.flat_children(&self.stage, matrix, spent, out);
+        worker.flat_children(self, matrix, spent, out);
     }
 }
 
@@ -144,6 +122,7 @@ pub(in crate::search) fn adding(
         let contours = coordinates.iter().copied();
         let added = &space.added[t];
         Adding {
+            field,
             variable,
             contours: contours.filter(|&c| c < space.contours.len()).collect(),
             columns: Columns::new(field, &lifetimes, t, &coordinates, closing, added),

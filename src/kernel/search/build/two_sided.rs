@@ -12,11 +12,11 @@
 //! minimal state graphs for definite events" (1962).
 
 use crate::search::build::completing_sets::{Numbered, Set, has, nodes, none, put, set};
-use crate::search::build::self_stress::Added;
 use crate::search::build::spanning_halves::{Halves, Meeting};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
+use crate::search::diagram::stage::Adding;
 use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress, Stop, next};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
@@ -29,13 +29,13 @@ const PAIRS_A_SQUARE: usize = 5;
 
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
-    stages: &'a [Added],
+    stages: &'a [Adding],
     layers: Vec<Layer>,
     nodes: Nodes,
 }
 
 impl<'a> Side<'a> {
-    fn new(stages: &'a [Added], already: u32) -> Self {
+    fn new(stages: &'a [Adding], already: u32) -> Self {
         Side {
             stages,
             layers: Vec::new(),
@@ -44,7 +44,7 @@ impl<'a> Side<'a> {
     }
 
     /// The stage that comes next.
-    fn ahead(&self) -> &'a Added {
+    fn ahead(&self) -> &'a Adding {
         &self.stages[self.layers.len()]
     }
 
@@ -107,7 +107,8 @@ pub(in crate::search) fn two_sided(
     let held: usize = parts.iter().map(Met::bytes).sum();
     let left = question.limits.bytes.checked_sub(held)?;
     let met = parts.into_iter().enumerate().map(|(part, met)| {
-        let meeting = question.meeting(part, &met.front.nodes, &met.back.layers);
+        let nodes = [&met.front.nodes, &met.back.nodes];
+        let meeting = question.meeting(part, nodes, met.back.layers.len());
         (met, meeting)
     });
     let parts: Vec<(Met<'_>, Meeting)> = met.collect();
@@ -150,7 +151,7 @@ fn joined(
     for (met, meeting) in parts {
         let of = met.front.nodes.len();
         let told = &mut |done: usize| told(layers.len(), total, diagram::Meeting { done, of });
-        let (of_front, sets) = meeting.join(&met.front.nodes, bytes, cancelled, told)?;
+        let (of_front, sets) = meeting.join(bytes, cancelled, told)?;
         let (back, sets) = without_twins(met.back.layers, sets);
         let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
@@ -169,7 +170,7 @@ fn joined(
 fn halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
-    ends: &'a [Vec<Added>; 2],
+    ends: &'a [Vec<Adding>; 2],
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(Progress),
 ) -> Option<Met<'a>> {

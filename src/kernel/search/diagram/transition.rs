@@ -32,12 +32,6 @@ impl Children {
         }
     }
 
-    /// None again.
-    pub(in crate::search) fn clear(&mut self) {
-        self.found.clear();
-        self.data.clear();
-    }
-
     /// Takes a child.
     fn take(&mut self, child: &Growing) {
         if !child.alive {
