@@ -44,8 +44,7 @@ pub struct Diagrams {
     pub cheapest: Option<UpTo>,
     /// About how many determinate and admissible variants there are, where their diagrams are cut down and a seed is given.
     pub estimates: [Option<Estimate>; 2],
-    /// Rows of the closure equations for each contour that they are built of: fewer than a twist has numbers where the rest is
-    /// the same whatever is chosen.
+    /// Rows of the closure equations for each contour.
     pub rows_per_contour: usize,
 }
 
@@ -127,7 +126,7 @@ pub(crate) fn build_in(
         lasting,
         cheapest,
         estimates,
-        rows_per_contour: question.model.space.dim,
+        rows_per_contour: question.space.dim,
     }
 }
 
@@ -140,7 +139,7 @@ fn build_lasting(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Result<Diagram, PoseOnly> {
-    let along = question.throughout.as_ref().map_err(PoseOnly::clone)?;
+    question.throughout.as_ref().map_err(PoseOnly::clone)?;
     if !is_whole(at_the_pose) {
         return Err(PoseOnly::Budget);
     }
@@ -149,7 +148,6 @@ fn build_lasting(
     }
     // It is wanted whole or not at all.
     let limits = Limits {
-        already: along.model.already,
         layer: question.conditions.nodes,
         ..limits(question)
     };
@@ -220,7 +218,7 @@ fn built(
         is_whole(&found).then_some(found)
     };
     let halves = Halves::new(question, order, limits, wanted);
-    let space = &wanted.model(question).space;
+    let space = &question.space;
     let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
     let mut found = match whole {
         Some(whole) => whole,
@@ -248,7 +246,7 @@ fn prove(
         return None;
     }
     let Lanes { stages, root } = Lanes::new(question, order, limits, Wanted::Admissible);
-    let space = &question.model.space;
+    let space = &question.space;
     let missing = Missing::new(space, &stages, &root, limits);
     if missing.root().is_none() {
         // There is none, by dimensions alone.

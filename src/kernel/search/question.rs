@@ -25,7 +25,6 @@ use crate::search::question::own_images::OwnSymmetry;
 use crate::search::question::space::{Space, Variable, choice_name};
 use crate::search::question::throughout::{PoseOnly, Throughout};
 use crate::search::reduce::biconnected::{Block, blocks};
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::is_contained;
 use itertools::Itertools;
 use num_bigint::BigUint;
@@ -44,8 +43,6 @@ pub struct Question {
     pub steps: Steps,
     /// The field in which it is answered, with all numbers of the mechanism.
     pub exact: ExactField,
-    /// What its diagrams are built of.
-    pub(in crate::search) model: Model,
     /// The contours of the free state, and the rows of J in it.
     pub(in crate::search) contours: Vec<Contour>,
     pub(in crate::search) rows: i64,
@@ -213,13 +210,6 @@ impl Question {
             Throughout::new(&exact, &mechanism, &conditions, &space, &contours, &kept)?;
         Ok(Question {
             throughout,
-            model: Model::least(
-                &exact,
-                &mechanism,
-                &contours,
-                &space,
-                conditions.whole_twists,
-            )?,
             grasps: grasps.collect(),
             blocks: both_blocks(&mechanism, &space, &pinned, &contours),
             contours,

@@ -3,5 +3,4 @@
 
 pub(in crate::search) mod biconnected;
 pub(in crate::search) mod lifetimes;
-pub(in crate::search) mod plane_split;
 pub(in crate::search) mod self_stress_space;

@@ -50,7 +50,7 @@ pub(in crate::search) fn at_most(
 ) -> Option<AtMost> {
     let field = question.exact.field();
     let space = space(question, order, wanted);
-    let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
+    let spent = Spent::within_mechanism(space.lasting);
     if spent.internal() != limits.internal {
         return None;
     }

@@ -13,7 +13,6 @@ use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::question::throughout::ORDER;
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
 /// Which variants a diagram has.
@@ -27,22 +26,11 @@ pub(in crate::search) enum Wanted {
     Lasting,
 }
 
-impl Wanted {
-    /// Returns the rows that their diagram is built of.
-    pub(in crate::search) fn model(self, question: &Question) -> &Model {
-        match &question.throughout {
-            Ok(along) if self == Wanted::Lasting => &along.model,
-            _ => &question.model,
-        }
-    }
-}
-
 /// Returns the limits of the diagrams of a question.
 pub(in crate::search) fn limits(question: &Question) -> Limits {
     let state = question.conditions.state;
     Limits {
         layer: usize::MAX,
-        already: question.model.already,
         internal: question.conditions.max_redundant,
         external: state.and_then(|s| s.max_external),
         harmful: state.and_then(|s| s.max_harmful),
@@ -62,7 +50,7 @@ pub(in crate::search) fn space(
     let keeps = wanted != Wanted::Determinate && question.conditions.keep_output;
     let kept = keeps.then_some(&question.kept);
     let field = question.exact.field();
-    let (mechanism, space) = (&question.mechanism, &wanted.model(question).space);
+    let (mechanism, space) = (&question.mechanism, &question.space);
     let rows = ClosingRows::free(mechanism, space.dim, &question.contours, kept);
     let (times, of_choice): (usize, &dyn Fn(usize, usize) -> Vec<Vec<Residue>>) =
         match &question.throughout {

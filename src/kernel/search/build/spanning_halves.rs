@@ -51,7 +51,7 @@ impl<'a> Halves<'a> {
     ) -> Option<Self> {
         let field = question.exact.field();
         let front = known_by_one_number(field, space(question, order, wanted));
-        let already = limits.already.saturating_add(front.lasting);
+        let already = front.lasting;
         if already != limits.internal {
             return None;
         }

@@ -6,8 +6,6 @@ use itertools::Itertools;
 /// When a partly built mechanism is given up, and when building stops; no number, no limit.
 #[derive(Debug, Clone)]
 pub(crate) struct Limits {
-    /// Redundant constraints within the mechanism that every variant has.
-    pub already: u32,
     /// Redundant constraints allowed within the mechanism.
     pub internal: u32,
     /// Redundant constraints that the state may add.

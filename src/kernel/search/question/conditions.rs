@@ -88,8 +88,6 @@ pub struct Conditions {
     pub cheapest: usize,
     /// The seed of estimates, where counts that do not fit the budgets are estimated.
     pub estimate: Option<u64>,
-    /// Whether diagrams have all rows of the closure equations, those that no choice changes too: slower, and for comparison.
-    pub whole_twists: bool,
     /// Node budget of each diagram.
     pub nodes: usize,
     /// Bytes that the search and what is counted on it may hold.
@@ -116,7 +114,6 @@ impl Default for Conditions {
             counted: true,
             cheapest: 0,
             estimate: None,
-            whole_twists: false,
             nodes: 1_000_000,
             memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,

@@ -25,7 +25,6 @@ use crate::rank::finite::higher_order::HigherOrder;
 use crate::search::question::conditions::Conditions;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, choice_name, coupled};
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::ClosingRows;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -92,8 +91,6 @@ pub(in crate::search) type ColumnSeries = Vec<Vec<Residue>>;
 /// The columns of every choice along the motion.
 #[derive(Debug)]
 pub(in crate::search) struct Throughout {
-    /// All rows of the closure equations: out of the drawn pose the parts of a plane need not stay apart.
-    pub(in crate::search) model: Model,
     /// `[variable][choice]`: the joint and the series of each freedom.
     columns: Vec<Vec<Vec<(JointId, ColumnSeries)>>>,
 }
@@ -147,10 +144,7 @@ impl Throughout {
             }
             columns.push(of_choices);
         }
-        let out = Throughout {
-            model: Model::whole(space),
-            columns,
-        };
+        let out = Throughout { columns };
         let rows = ClosingRows::free(mechanism, space.dim, contours, Some(kept));
         Ok(if out.is_regular(exact.field(), &rows) {
             Ok(out)
