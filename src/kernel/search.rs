@@ -9,10 +9,10 @@
 //! space of motions of the links that still have joints to choose.
 
 pub mod answer;
+pub mod at_tolerance;
 pub mod build;
 pub mod check;
 pub mod diagram;
-pub mod numeric;
 pub(crate) mod order;
 pub mod question;
 mod reduce;
@@ -26,10 +26,10 @@ use crate::search::answer::ideas::{self, Idea, IdeaBasis};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order;
+use crate::search::at_tolerance::AtTolerance;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Progress};
-use crate::search::numeric::at_tolerance::{self, AtTolerance};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError};
 use crate::search::question::rounded_rank::Digits;

@@ -207,19 +207,8 @@ fn built(
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
         return nothing(question, order);
     }
-    let mut from_one_end = |nodes: usize, progress: &mut (dyn FnMut(Progress) + Send)| {
-        // What grows on and on is given up early.
-        let limits = Limits {
-            nodes: nodes.min(limits.nodes),
-            layer: nodes / 3,
-            ..limits.clone()
-        };
-        let found = (limits.nodes > few.nodes).then(|| within(&limits, progress))?;
-        is_whole(&found).then_some(found)
-    };
     let halves = Halves::new(question, order, limits, wanted);
-    let space = &question.space;
-    let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
+    let whole = halves.and_then(|h| two_sided(&h, &question.space, cancelled, progress));
     let mut found = match whole {
         Some(whole) => whole,
         None if few.nodes < limits.nodes => within(limits, progress),

@@ -25,15 +25,6 @@ use crate::search::diagram::transition::{Children, Worker};
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
-/// How many nodes of the front have met those of the back, where a diagram is built from both ends.
-#[derive(Debug, Clone, Copy)]
-pub struct Meeting {
-    /// Nodes that have met all of the back.
-    pub done: usize,
-    /// Nodes of the front in all.
-    pub of: usize,
-}
-
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Progress {
@@ -45,8 +36,6 @@ pub struct Progress {
     pub nodes: usize,
     /// Nodes of the present layer.
     pub layer: usize,
-    /// How far halves have met, while they do.
-    pub meeting: Option<Meeting>,
 }
 
 impl Progress {
@@ -62,7 +51,6 @@ impl Progress {
             of,
             nodes: before + layer,
             layer,
-            meeting: None,
         }
     }
 }

@@ -26,8 +26,7 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
         let one = in_self_stress_space(question, order, &limits, wanted, &never, &mut |_| {});
         let halves = Halves::new(question, order, &limits, wanted);
         let space = &question.space;
-        let both = halves
-            .and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}, &mut |_, _| None));
+        let both = halves.and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}));
         (one.stop == Stop::Exhausted)
             .then(|| [Some(one), both].map(|d| d.map(|d| minimal(d.layers, d.terminals))))
     };

@@ -108,6 +108,27 @@ fn between<'a>(
     in_steps(question, diagram, &question.steps, limits, wanted, enter).0
 }
 
+/// Returns at least `top` variants of a diagram in order of cost, whatever is asked of their keys; none where there is no memory.
+pub(in crate::search) fn every_choice<'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    top: usize,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let limits = ListLimits {
+        reach: Reach::Variants(top),
+        ceiling: u64::MAX,
+    };
+    in_steps(
+        question,
+        diagram,
+        &question.steps,
+        limits,
+        |_| true,
+        every(),
+    )
+    .0
+}
+
 /// The variants of a diagram whose keys pass a test, in the order of some steps, and whether there are none beyond.
 fn in_steps<'a>(
     question: &'a Question,

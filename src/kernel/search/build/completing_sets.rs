@@ -60,7 +60,7 @@ impl Numbered {
     }
 }
 
-/// Nodes looked at before it is asked whether all is cancelled, and told how many are done.
+/// Nodes looked at before it is asked whether all is cancelled.
 const BATCH: usize = 512;
 
 /// For each of so many nodes, which nodes of the other half complete it; none where it is cancelled.
@@ -68,14 +68,12 @@ pub(in crate::search) fn completed(
     nodes: usize,
     completing: impl Fn(usize) -> Set + Sync,
     cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize),
 ) -> Option<Vec<Set>> {
     let mut sets = Vec::with_capacity(nodes);
     for start in (0..nodes).step_by(BATCH) {
         if cancelled() {
             return None;
         }
-        told(start);
         let batch = start..(start + BATCH).min(nodes);
         sets.par_extend(batch.into_par_iter().map(&completing));
     }

@@ -76,7 +76,7 @@ pub(super) fn lookups(front: &Grouped, back: &Grouped) -> usize {
 }
 
 /// Returns for each node of the front the set of nodes of the back that complete it; `None` if the sets take more than the given bytes, or
-/// if cancelled. `told` receives the number of nodes done.
+/// if cancelled.
 ///
 /// # Complexity
 /// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.
@@ -86,23 +86,19 @@ pub(super) fn matched(
     [front, back]: &[Grouped; 2],
     bytes: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize),
 ) -> Option<(Vec<u32>, Vec<Set>)> {
     let mut of_node = vec![DEAD; front.nodes];
     let mut numbered = Numbered::default();
-    let mut done = 0;
     for some in front.groups.chunks(BATCH) {
         if cancelled() {
             return None;
         }
-        told(done);
         let completed = |group| completed(field, width, group, back);
         let found: Vec<Completed> = some.par_iter().map(completed).collect();
         for (set, nodes) in found.into_iter().flatten() {
             let number = numbered.of(set);
             nodes.iter().for_each(|&node| of_node[node] = number);
         }
-        done += some.iter().map(|group| group.nodes.len()).sum::<usize>();
         if numbered.all.len() * back.nodes / 8 > bytes {
             return None;
         }

@@ -210,7 +210,7 @@ impl Meeting {
     }
 
     /// Returns for each node of the front the number of the set of those of the back that complete it, or [`DEAD`], and the different
-    /// sets; `None` if they take more than the given bytes or if it is cancelled. `told` receives the number of nodes done.
+    /// sets; `None` if they take more than the given bytes or if it is cancelled.
     ///
     /// # Complexity
     /// That of [`matched`] or that of [`Bases::completing`] for each node of the front.
@@ -220,16 +220,15 @@ impl Meeting {
         &self,
         bytes: usize,
         cancelled: &(dyn Fn() -> bool + Sync),
-        told: &mut dyn FnMut(usize),
     ) -> Option<(Vec<u32>, Vec<Set>)> {
         if let Some(grouped) = &self.grouped {
-            return matched(self.field, self.width - 1, grouped, bytes, cancelled, told);
+            return matched(self.field, self.width - 1, grouped, bytes, cancelled);
         }
         if self.pairs / 8 > bytes {
             return None;
         }
         let of_node = |node: usize| self.bases.completing(&self.front[node], self.width);
-        let sets = completed(self.front.len(), of_node, cancelled, told)?;
+        let sets = completed(self.front.len(), of_node, cancelled)?;
         let mut numbered = Numbered::default();
         let of_node = sets.into_iter().map(|set| numbered.of(set)).collect();
         Some((of_node, numbered.all))

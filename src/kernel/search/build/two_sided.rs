@@ -17,16 +17,12 @@ use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
 use crate::search::diagram::stage::Adding;
-use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress, Stop, next};
+use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 
 /// Pairs of nodes tried at most, for each node of the budget.
 const PAIRS: usize = 500;
-/// Pairs of nodes that take about as long as a node from one end, for each square of the rows of a contour: so many numbers a node is
-/// eliminated with, where a pair takes a sum of products.
-const PAIRS_A_SQUARE: usize = 5;
-
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
     stages: &'a [Adding],
@@ -71,12 +67,8 @@ impl Met<'_> {
     }
 }
 
-/// The diagram of a question from one end, within so many nodes; none where it does not fit them.
-type FromOneEnd<'a> = dyn FnMut(usize, &mut (dyn FnMut(Progress) + Send)) -> Option<Diagram> + 'a;
-
 /// The whole diagram of a question whose variants have no redundant constraints but those that all have, part by part; none where
-/// it does not fit the limits either, or where it is cancelled. Where as many nodes as take about as long as the pairs of both halves
-/// may be enough from one end, `from_one_end` is asked for the diagram within so many.
+/// it does not fit the limits either, or where it is cancelled.
 ///
 /// # Complexity
 /// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.
@@ -85,20 +77,18 @@ pub(in crate::search) fn two_sided(
     space: &Space,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
-    from_one_end: &mut FromOneEnd<'_>,
 ) -> Option<Diagram> {
     let of = question.parts.iter().map(|[front, _]| front.len()).sum();
-    let mut told = |done: usize, before: usize, now: Progress| {
-        progress(Progress {
-            done: done + now.done,
-            of,
-            nodes: before + now.nodes,
-            ..now
-        });
-    };
     let (mut parts, mut done, mut total) = (Vec::new(), 0, 1);
     for ends in &question.parts {
-        let told = &mut |now: Progress| told(done, total, now);
+        let told = &mut |now: Progress| {
+            progress(Progress {
+                done: done + now.done,
+                of,
+                nodes: total + now.nodes,
+                ..now
+            });
+        };
         let met = halves(question, space, ends, cancelled, told)?;
         done += ends[0].len();
         total += met.front.nodes.len() + met.back.nodes.len();
@@ -117,41 +107,11 @@ pub(in crate::search) fn two_sided(
     if pairs / PAIRS > question.limits.nodes {
         return None;
     }
-    if let Some(whole) = from_one_end(pairs / (PAIRS_A_SQUARE * space.dim.pow(2)), progress) {
-        return Some(whole);
-    }
-    joined(
-        question,
-        parts,
-        left / 4,
-        cancelled,
-        &mut |done, nodes, meeting| {
-            progress(Progress {
-                done,
-                of,
-                nodes,
-                layer: meeting.of,
-                meeting: Some(meeting),
-            });
-        },
-    )
-}
-
-/// The diagram of parts whose halves are there; `told` hears of the layers and nodes so far, and how far halves have met.
-fn joined(
-    question: &Halves<'_>,
-    parts: Vec<(Met<'_>, Meeting)>,
-    bytes: usize,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize, usize, diagram::Meeting),
-) -> Option<Diagram> {
     let most = question.limits.nodes;
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (met, meeting) in parts {
-        let of = met.front.nodes.len();
-        let told = &mut |done: usize| told(layers.len(), total, diagram::Meeting { done, of });
-        let (of_front, sets) = meeting.join(bytes, cancelled, told)?;
+        let (of_front, sets) = meeting.join(left / 4, cancelled)?;
         let (back, sets) = without_twins(met.back.layers, sets);
         let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();

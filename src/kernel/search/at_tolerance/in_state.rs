@@ -1,7 +1,6 @@
 //! What a searched state makes of a variant, by singular values: external and harmful redundant constraints, and whether
 //! bodies are held.
 
-use super::answer::Answer;
 use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::joint_type::{Freedom, JointType};
@@ -12,6 +11,33 @@ use crate::search::question::conditions::InState;
 use crate::search::question::grasp::Grasp;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use ozols_dense::{Matrix, singular_values};
+
+/// Whether a condition is met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Answer {
+    No,
+    Perhaps,
+    Yes,
+}
+
+impl Answer {
+    /// From whether it is for sure, and whether it may be.
+    pub(super) fn of(sure: bool, may: bool) -> Answer {
+        match (sure, may) {
+            (true, _) => Answer::Yes,
+            (false, true) => Answer::Perhaps,
+            (false, false) => Answer::No,
+        }
+    }
+
+    pub(super) fn and(self, other: Answer) -> Answer {
+        match (self, other) {
+            (Answer::No, _) | (_, Answer::No) => Answer::No,
+            (Answer::Yes, Answer::Yes) => Answer::Yes,
+            _ => Answer::Perhaps,
+        }
+    }
+}
 
 /// All freedoms of a body.
 const ALL: [Freedom; 6] = [

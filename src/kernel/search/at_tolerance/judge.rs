@@ -1,7 +1,6 @@
 //! One variant judged by its singular values.
 
-use super::answer::Answer;
-use super::in_state::InStateSeen;
+use super::in_state::{Answer, InStateSeen};
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::StateId;
 use crate::rank::numeric::Elimination;
