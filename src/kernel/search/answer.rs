@@ -1,6 +1,5 @@
 //! What is read off finished diagrams: counts, the cheapest in order, samples, ideas, single changes, and why there is nothing.
 
-pub(in crate::search) mod completions;
 pub(crate) mod count;
 pub(crate) mod count_tables;
 pub mod counts;

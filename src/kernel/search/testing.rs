@@ -33,15 +33,6 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     both.into_iter().filter_map(of).collect()
 }
 
-/// The cheapest admissible variants of a question where so many steps from nodes are kept at once.
-#[must_use]
-pub fn cheapest_in_room(question: &Question, room: usize, top: usize) -> Vec<Assignment> {
-    let found = build(question, &|| false, &mut |_| {});
-    let mut all = cheapest(question, &found, top, Box::new(|_, _, _, _| true));
-    all.ways.room = room;
-    all.collect()
-}
-
 fn cheapest<'d>(
     question: &'d Question,
     found: &'d Diagrams,

@@ -42,6 +42,24 @@ impl<C: Count> Tally<C> {
         Some(Tally { tables: out })
     }
 
+    /// Returns where a choice leads from a node of a layer, what is left of a key there, and how many completions have that. Returns `None`
+    /// if none has.
+    pub(crate) fn follow(
+        &self,
+        diagram: &Diagram,
+        steps: &Steps,
+        (layer, node): (usize, u32),
+        choice: usize,
+        key: Key,
+    ) -> Option<(u32, Key, &C)> {
+        let here = &diagram.layers[layer];
+        let to = here.edges[node as usize * here.choices + choice];
+        let rest = Key(key.0.checked_sub(steps.keys[here.variable][choice].0)?);
+        let table = self.tables[layer + 1].get(to as usize)?;
+        let at = table.binary_search_by_key(&rest, |(k, _)| *k).ok()?;
+        Some((to, rest, &table[at].1))
+    }
+
     /// Counts of whole variants by key.
     #[must_use]
     pub(crate) fn totals(&self) -> &[(Key, C)] {
