@@ -90,13 +90,13 @@ fn twins(c: &mut Criterion) {
     let mut group = c.benchmark_group("diagram against brute force");
     group.bench_function("R S, 4096 variants, diagram", |b| b.iter(|| whole(&rs, 0)));
     group.bench_function("R S, 4096 variants, brute force", |b| {
-        b.iter(|| every_variant(&search(&rs, false)))
+        b.iter(|| every_variant(&search(&rs)))
     });
     group.bench_function("R C U S, 16777216 variants, diagram", |b| {
         b.iter(|| whole(&rcus, 0))
     });
     group.bench_function("R C U S, 4096 of 16777216 variants, brute force", |b| {
-        b.iter(|| every_variant(&search(&part, false)))
+        b.iter(|| every_variant(&search(&part)))
     });
     group.finish();
 }

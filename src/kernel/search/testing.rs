@@ -1,14 +1,14 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
 use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
-use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
+use super::answer::k_best::{Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
 use super::build::lanes::in_self_stress_space;
 use super::build::orders::{one_diagram, orders};
 use super::build::self_stress::{Wanted, limits};
 use super::build::spanning_halves::Halves;
 use super::build::two_sided::two_sided;
-use super::build::{Diagrams, build};
+use super::build::Diagrams;
 use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;

@@ -18,7 +18,7 @@ use crate::motion::displacement_series::multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
-use std::borrow::Borrow;
+use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 
 /// A vector of the added motions of a choice.
@@ -44,7 +44,7 @@ pub(in crate::search) struct SelfStressSpace {
 pub(in crate::search) struct ClosingRows<'m> {
     mechanism: &'m Mechanism,
     dim: usize,
-    contours: &'m [Contour],
+    contours: Cow<'m, [Contour]>,
     /// Couplings of the state, by their numbers.
     couplings: Vec<usize>,
     /// The joints on the way to each kept link, or from one link to another.
@@ -58,7 +58,7 @@ impl<'m> ClosingRows<'m> {
     pub(in crate::search) fn free(
         mechanism: &'m Mechanism,
         dim: usize,
-        contours: &'m [Contour],
+        contours: impl Into<Cow<'m, [Contour]>>,
         kept: Option<&Kept>,
     ) -> Self {
         let tree = spanning_tree(mechanism, StateId::FREE);
@@ -77,7 +77,7 @@ impl<'m> ClosingRows<'m> {
         mechanism: &'m Mechanism,
         dim: usize,
         state: StateId,
-        contours: &'m [Contour],
+        contours: impl Into<Cow<'m, [Contour]>>,
         paths: Vec<Vec<(JointId, bool)>>,
     ) -> Self {
         let present: Vec<JointId> = mechanism.joints_in(state).collect();
@@ -88,7 +88,7 @@ impl<'m> ClosingRows<'m> {
         ClosingRows {
             mechanism,
             dim,
-            contours,
+            contours: contours.into(),
             couplings: couplings.collect(),
             paths,
             keeps_drives: false,
@@ -150,39 +150,56 @@ impl<'m> ClosingRows<'m> {
         joint: JointId,
         twist: &[Residue],
     ) -> Vec<Residue> {
-        let (d, closing) = (self.dim, self.closing());
-        let mut out = vec![0; closing + self.kept()];
-        let mut put = |at: usize, forward: bool| {
-            f.accumulate(&mut out[at..at + d], &twist[..d], forward);
-        };
-        for (i, contour) in self.contours.iter().enumerate() {
-            if let Some(forward) = contour.direction(joint) {
-                put(i * d, forward);
-            }
-        }
-        for (i, path) in self.paths.iter().enumerate() {
-            if let Some((_, forward)) = path.iter().find(|(j, _)| *j == joint) {
-                put(closing + i * d, *forward);
-            }
-        }
-        for (i, (q, _)) in self.mechanism.couplings_of(joint).enumerate() {
-            if let Some(at) = self.couplings.iter().position(|&x| x == q) {
-                let at = self.contours.len() * d + at;
-                out[at] = f.add(out[at], twist[d + i]);
-            }
-        }
-        if let Some(i) = self.mechanism.drive_at(joint) {
-            let first = if self.mechanism.search.locks_drives {
-                Some(self.contours.len() * d + self.couplings.len())
-            } else {
-                self.keeps_drives.then_some(closing + self.paths.len() * d)
-            };
-            if let Some(first) = first {
-                out[first + i] = twist[twist.len() - 1];
+        let mut out = vec![0; self.closing() + self.kept()];
+        for (at, part) in self.parts(joint) {
+            match part {
+                Part::Twist { forward } => {
+                    let d = self.dim;
+                    f.accumulate(&mut out[at..at + d], &twist[..d], forward);
+                }
+                Part::Rate(rate) => out[at] = f.add(out[at], twist[self.dim + rate]),
             }
         }
         out
     }
+
+    /// Returns the rows that the motion of a joint goes to, each with what goes there.
+    pub(in crate::search) fn parts(&self, joint: JointId) -> Vec<(usize, Part)> {
+        let (d, closing) = (self.dim, self.closing());
+        let couplings = self.contours.len() * d;
+        let contours = self.contours.iter().enumerate();
+        let contours = contours.filter_map(|(i, c)| Some((i * d, c.direction(joint)?)));
+        let paths = self.paths.iter().enumerate().filter_map(|(i, path)| {
+            let (_, forward) = path.iter().find(|(j, _)| *j == joint)?;
+            Some((closing + i * d, *forward))
+        });
+        let twists = contours.chain(paths);
+        let mut out: Vec<(usize, Part)> = twists
+            .map(|(at, forward)| (at, Part::Twist { forward }))
+            .collect();
+        for (i, (q, _)) in self.mechanism.couplings_of(joint).enumerate() {
+            let at = self.couplings.iter().position(|&x| x == q);
+            out.extend(at.map(|at| (couplings + at, Part::Rate(i))));
+        }
+        if let Some(drive) = self.mechanism.drive_at(joint) {
+            let first = if self.mechanism.search.locks_drives {
+                Some(couplings + self.couplings.len())
+            } else {
+                self.keeps_drives.then_some(closing + self.paths.len() * d)
+            };
+            let rate = Part::Rate(self.mechanism.rates_of(joint) - 1);
+            out.extend(first.map(|first| (first + drive, rate)));
+        }
+        out
+    }
+}
+
+/// What of a joint's motion goes to a row.
+pub(in crate::search) enum Part {
+    /// The twist, to this row and those after it.
+    Twist { forward: bool },
+    /// One of the rates behind it.
+    Rate(usize),
 }
 
 /// Vectors as combinations of given ones.
