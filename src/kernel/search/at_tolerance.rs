@@ -26,25 +26,25 @@ use num_traits::ToPrimitive;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Spaces of no more variants than this are looked at whole.
+/// Spaces of at most this many variants are examined completely.
 pub const WHOLE: u32 = 50_000;
 /// Variants drawn of a larger one.
 const DRAWN: usize = 20_000;
-/// Variants of a larger one that are looked at in order of cost, at most.
+/// Maximum number of variants of a larger space that are examined in order of cost.
 const IN_ORDER: usize = 20_000;
-/// Variants looked at before it is asked whether there are enough of them.
+/// Number of variants that are examined before it is checked whether there are enough.
 const AT_ONCE: usize = 2048;
-/// Variants that are looked at by one thread before it asks whether to end.
+/// Number of variants that a thread examines between two checks for cancellation.
 const BLOCK: usize = 64;
 
-/// Searches by singular values. Of spaces too large to be looked at whole `list` of the cheapest are looked for, and a
-/// sample is drawn from `seed`.
+/// Searches by singular values. In spaces that are too large to be examined completely, it looks for the `list` cheapest variants, and
+/// draws a sample from `seed`.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
-/// Two or three decompositions of a matrix of 6k rows a variant, in parallel, [`WHOLE`] variants at most.
+/// Two or three decompositions of a matrix of 6k rows per variant, in parallel, for at most [`WHOLE`] variants.
 pub(crate) fn at_tolerance(
     question: &mut Question,
     digits: Digits,
@@ -65,7 +65,7 @@ pub(crate) fn at_tolerance(
     Ok(found)
 }
 
-/// A question whose variants are looked at.
+/// A question whose variants are examined.
 struct Looking<'a> {
     question: &'a Question,
     judge: &'a Judge<'a>,
@@ -124,8 +124,8 @@ impl Looking<'_> {
         all.collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
-    /// Looks at variants in order of cost until `wanted` are sure to be admissible, or `most` are looked at. Returns the sure ones, and the
-    /// cost in steps of the first that was not looked at.
+    /// Examines variants in order of cost until `wanted` are certainly admissible, or `most` are examined. Returns the certain ones, and
+    /// the cost in steps of the first variant that was not examined.
     fn in_order(
         &self,
         wanted: usize,
@@ -153,8 +153,8 @@ impl Looking<'_> {
         (list, all.peek().map(|v| v.key.cost()))
     }
 
-    /// Looks at a sample of all. Returns how many were drawn, and the shares of the determinate and the admissible among them. Those that
-    /// are dearer than what was looked at in order are met here.
+    /// Examines a sample of all variants. Returns its size, and the shares of determinate and admissible variants in it. Sampled variants
+    /// that cost more than those examined in order are counted.
     fn sample(&self, seed: u64, next_cost: Option<u64>, met: &mut Met) -> (usize, [Share; 2]) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let one = |_| any_choices(self.question, &mut random);

@@ -34,11 +34,11 @@ use std::collections::BTreeSet;
 /// Diagrams of one question.
 #[derive(Debug)]
 pub struct Diagrams {
-    /// Of the variants that meet the redundancy condition of the free state.
+    /// The variants that meet the redundancy condition of the free state.
     pub determinate: Diagram,
-    /// Of those that meet every condition that does not depend on counts of changes and mobility.
+    /// The variants that meet every condition except those on mobility and changes.
     pub admissible: Diagram,
-    /// Of those of the admissible ones that keep the motion throughout, or why there is no such diagram.
+    /// The admissible variants that keep the motion throughout, or the reason why there is no such diagram.
     pub lasting: Result<Diagram, PoseOnly>,
     /// The cheapest of the admissible ones, where they are wanted and that diagram is not whole.
     pub cheapest: Option<UpTo>,
@@ -49,8 +49,7 @@ pub struct Diagrams {
 }
 
 impl Diagrams {
-    /// The diagram of the variants that are listed: those that keep the motion throughout, where that is known, or else the admissible
-    /// ones.
+    /// Returns the diagram of the listed variants: those that keep the motion throughout if that is known, otherwise the admissible ones.
     #[must_use]
     pub fn listed(&self) -> &Diagram {
         self.lasting.as_ref().unwrap_or(&self.admissible)
@@ -62,7 +61,7 @@ impl Diagrams {
         self.determinate.stop.or(self.admissible.stop)
     }
 
-    /// The cost in thousandths up to which every admissible variant is known; `None` where of none it can be said.
+    /// Returns the cost in thousandths up to which every admissible variant is known; `None` if there is no such cost.
     #[must_use]
     pub fn known_up_to(&self) -> Option<i64> {
         let whole = self.admissible.stop == Stop::Exhausted;
@@ -274,7 +273,7 @@ fn prove(
 /// the diagram lead to are followed layer by layer, and no others.
 ///
 /// # Complexity
-/// That of the diagram of the question at most, and O(n·choices) for n pairs of a node of the diagram and a space.
+/// At most that of the diagram of the question, and O(n·choices) for n pairs of a node of the diagram and a space.
 pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
     let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
     let limits = limits(question);

@@ -1,4 +1,4 @@
-//! What is asked: the space of variants, what they must be like, what they cost, and the mechanism made ready for it.
+//! The question of a search: the space of variants, their conditions and costs, and the prepared mechanism.
 
 pub mod as_written;
 pub mod conditions;
@@ -30,12 +30,12 @@ use itertools::Itertools;
 use num_bigint::BigUint;
 use std::sync::Arc;
 
-/// What is asked, made ready: the space of variants, its costs, and what diagrams are built of.
+/// A prepared question: the space of variants, its costs, and the data of its diagrams.
 #[derive(Debug)]
 pub struct Question {
     /// The mechanism.
     pub mechanism: Arc<Mechanism>,
-    /// What variants must be like.
+    /// The conditions on variants.
     pub conditions: Conditions,
     /// The space (with images of each other as one variable where only symmetric variants are wanted).
     pub space: Space,
@@ -46,13 +46,13 @@ pub struct Question {
     /// The contours of the free state, and the rows of J in it.
     pub(in crate::search) contours: Vec<Contour>,
     pub(in crate::search) rows: i64,
-    /// What must move as it does now.
+    /// The links and drives that must keep their motion.
     pub(in crate::search) kept: Kept,
     /// The choices along the motion, or why only the drawn pose is asked about.
     pub(in crate::search) throughout: throughout::Followed,
     /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.
     pub(in crate::search) present: Option<usize>,
-    /// What must be held in the searched state.
+    /// The bodies that must be held in the searched state.
     pub(in crate::search) grasps: Vec<Grasp>,
     /// The blocks of the diagram of determinate variants, and of the other.
     pub(in crate::search) blocks: [Vec<Block>; 2],
@@ -146,7 +146,7 @@ impl Question {
     /// Makes a question ready; a mechanism given by reference is copied.
     ///
     /// # Errors
-    /// Where the geometry has no exact image, or symmetry is asked of an unsymmetric file.
+    /// Returns an error if the geometry has no exact image, or if symmetry is required of an unsymmetric file.
     pub fn new(
         exact: ExactField,
         mechanism: impl Into<Arc<Mechanism>>,
@@ -247,11 +247,11 @@ impl Question {
         self.grasps.iter().map(|g| g.body)
     }
 
-    /// The bodies that must be held and are not in the mechanism as it is, in a sentence each: no option takes a motion away,
-    /// so no variant holds them.
+    /// Returns a warning for each body that must be held and is loose in the present mechanism. No option removes a motion, so no variant
+    /// holds such a body.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     pub fn already_loose(&self) -> Result<Vec<String>, ExactError> {
         let Some(s) = self.conditions.state else {
             return Ok(Vec::new());
@@ -315,7 +315,7 @@ impl Question {
         i64::from(key.freedoms()) - self.rows + i64::from(key.internal())
     }
 
-    /// What variants are put in order by before their choices: cost, then W, then changes, then whatever else tells keys apart.
+    /// Returns the sort key of variants: cost, then W, then changes, then the other properties.
     #[must_use]
     pub fn rank(&self, key: Key) -> (u64, i64, u32, Key) {
         (key.cost(), self.mobility(key), key.changes(), key)

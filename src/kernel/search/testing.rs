@@ -3,12 +3,12 @@
 use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
 use super::answer::k_best::{Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
+use super::build::Diagrams;
 use super::build::lanes::in_self_stress_space;
 use super::build::orders::{one_diagram, orders};
 use super::build::self_stress::{Wanted, limits};
 use super::build::spanning_halves::Halves;
 use super::build::two_sided::two_sided;
-use super::build::Diagrams;
 use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
@@ -63,7 +63,7 @@ pub struct Walked {
     pub steps: usize,
 }
 
-/// What it takes to list the cheapest admissible variants.
+/// Counts the steps that listing the cheapest admissible variants takes.
 #[must_use]
 pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;
@@ -75,7 +75,7 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
     Walked { listed, steps }
 }
 
-/// What it takes to list the first ideas.
+/// Counts the steps that listing the first ideas takes.
 #[must_use]
 pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;

@@ -12,8 +12,8 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use num_traits::Zero;
 
-/// Draws variants of a diagram without end, each with the same chance; `filter` applies the conditions on mobility and changes, too.
-/// None where what it takes to draw is more than the memory there is.
+/// Returns an endless sample of the variants of a diagram, each with the same probability. `filter` also applies the conditions on mobility
+/// and changes. The sample is empty if it takes more than the available memory.
 pub(in crate::search) fn sample_of<'a>(
     question: &'a Question,
     diagram: &'a Diagram,

@@ -23,8 +23,8 @@ pub struct Assignment {
 /// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
 ///
 /// # Complexity
-/// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) look-ups a variant, and less where
-/// many begin alike. Memory is the tables, however many are asked for.
+/// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) look-ups per variant, less if many
+/// variants have the same beginning. Memory is that of the tables, whatever the length of the list.
 pub(crate) struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
@@ -46,13 +46,13 @@ pub(crate) struct Cheapest<'d, C> {
 /// How far a list goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
-    /// To so many variants.
+    /// Up to a number of variants.
     Variants(usize),
-    /// To all that cost no more than so many steps above the cheapest.
+    /// Up to a cost, in steps above the cheapest.
     Above(u64),
 }
 
-/// What a list is of, before anything is known of the variants.
+/// The extent of a list, given before variants are known.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ListLimits {
     /// How far it goes.
@@ -83,8 +83,8 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first variants whose key passes `wanted`, as it does for no cost above the ceiling, in the order of `rank`, which is by
-    /// cost first. Of those that begin alike none is given where `enter` refuses the beginning.
+    /// Returns the first variants whose key passes `wanted`, which it does not above the ceiling. They are in the order of `rank`, which
+    /// sorts by cost first. If `enter` refuses a partial variant, its completions are skipped.
     pub(crate) fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
@@ -223,7 +223,7 @@ fn enough<C: Count>(
     }
 }
 
-/// Least cost by layer and node; `None` where there is no way.
+/// Least cost by layer and node; `None` if there is no path.
 type LeastCosts = Vec<Vec<Option<u64>>>;
 
 /// Least costs of the ways to each node.

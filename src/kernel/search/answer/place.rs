@@ -15,7 +15,7 @@ pub struct Places<'d> {
 }
 
 impl<'d> Places<'d> {
-    /// Of a diagram; `None` where its tables take more than some bytes, or its variants are too many to number.
+    /// Prepares a diagram. Returns `None` if its tables take more than `bytes`, or if its variants are too many to number.
     ///
     /// # Complexity
     /// O(edges · kinds of completions).

@@ -1,4 +1,4 @@
-//! What a search by singular values found: brackets of counts, and the sure variants in few bytes.
+//! The result of a search by singular values: ranges of counts, and the certain variants.
 
 use super::judge::{Judged, Standing};
 use crate::search::answer::counts::Counts;
@@ -12,7 +12,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
 
-/// Of a normal distribution, 95 % is within so many standard deviations.
+/// The number of standard deviations that contain 95 % of a normal distribution.
 const NORMAL_95: f64 = 1.959_963_985;
 
 /// How many variants meet a condition.
@@ -22,7 +22,7 @@ pub struct Bracket {
     pub sure: Counts,
     /// Those of which the digits do not say, each under the figures it has if it does.
     pub doubtful: Counts,
-    /// The most there can be: the sure and the doubtful ones, and those not looked at.
+    /// The maximum: certain and doubtful variants, and those not examined.
     pub most: BigUint,
 }
 
@@ -34,12 +34,12 @@ impl Bracket {
     }
 }
 
-/// What was found by singular values.
+/// The result of a search by singular values.
 #[derive(Debug, Clone)]
 pub struct AtTolerance {
-    /// What the digits tell.
+    /// The accuracy of the digits.
     pub digits: Digits,
-    /// How many variants were looked at.
+    /// The number of variants examined.
     pub looked: u64,
     /// Those with few enough redundant constraints.
     pub determinate: Bracket,
@@ -47,7 +47,7 @@ pub struct AtTolerance {
     pub admissible: Bracket,
     /// Counts of the sure admissible ones by cost in thousandths.
     pub by_cost: BTreeMap<i64, BigUint>,
-    /// What a sample says, where not all were looked at.
+    /// The result of a sample, if not all variants were examined.
     pub sampled: Option<Sampled>,
     /// Whether it was ended early.
     pub stop: Stop,
@@ -56,20 +56,20 @@ pub struct AtTolerance {
 }
 
 impl AtTolerance {
-    /// Whether every variant was looked at.
+    /// Returns true if every variant was examined.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.sampled.is_none() && self.stop == Stop::Exhausted
     }
 
-    /// Returns the sure admissible variants, cheapest first, then by W, then by changes. Of a space not looked at whole, returns the first
-    /// of them.
+    /// Returns the certainly admissible variants, cheapest first, then by W, then by changes. If the space was not examined completely,
+    /// returns the first of them.
     pub fn list(&self) -> impl Iterator<Item = Assignment> {
         self.list.iter().cloned()
     }
 
-    /// Draws variants of the list at random without end, each with the same chance; of a space not looked at whole those are the cheap
-    /// ones.
+    /// Returns an endless sample of the list, each variant with the same probability. If the space was not examined completely, these are
+    /// the cheap variants.
     pub fn drawn(&self, seed: u64) -> impl Iterator<Item = Assignment> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let any = move || self.list.get(below(&mut random, self.list.len())).cloned();
@@ -150,7 +150,7 @@ fn counts(question: &Question, all: &BTreeMap<Key, u64>) -> Counts {
 pub struct Share {
     /// The share found.
     pub mean: f64,
-    /// In 95 of 100 samples the true share is at least this, doubtful variants left out,
+    /// The lower end of the 95 % confidence interval, without doubtful variants.
     pub low: f64,
     /// and at most this, doubtful ones taken in.
     pub high: f64,
@@ -183,7 +183,7 @@ impl Share {
     }
 }
 
-/// What a sample says of a space that was not looked at whole.
+/// The result of a sample of a space that was not examined completely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled {
     /// Variants drawn, each with the same chance, with repetition.
@@ -194,9 +194,9 @@ pub struct Sampled {
     pub determinate: Share,
     /// The admissible ones.
     pub admissible: Share,
-    /// Variants looked at in order of cost.
+    /// The number of variants examined in order of cost.
     pub in_order: usize,
-    /// The cost in thousandths below which every variant was looked at; none where costs cannot be told apart so finely.
+    /// The cost in thousandths below which every variant was examined; `None` if memory does not suffice for the order.
     pub all_below: Option<i64>,
 }
 

@@ -1,5 +1,4 @@
-//! What a searched state makes of a variant, by singular values: external and harmful redundant constraints, and whether
-//! bodies are held.
+//! A variant in the searched state by singular values: external and harmful redundant constraints, and whether bodies are held.
 
 use crate::closure::Closure;
 use crate::geom::Reals;
@@ -49,7 +48,7 @@ const ALL: [Freedom; 6] = [
     Freedom::Tz,
 ];
 
-/// What is seen of a variant in a state; the least and the most of each figure.
+/// The figures of a variant in a state, each with its minimum and maximum.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InStateSeen {
     external: [i32; 2],
@@ -58,7 +57,7 @@ pub(super) struct InStateSeen {
 }
 
 impl InStateSeen {
-    /// Of a variant as a mechanism; `None` where the arithmetic fails.
+    /// Examines a variant as a mechanism. Returns `None` if the arithmetic fails.
     ///
     /// A self-stress is harmless where it does no work in any motion that would take harm away: the ranks of J with these
     /// motions added and without them differ by the number of harmful ones.

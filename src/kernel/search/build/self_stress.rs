@@ -1,4 +1,4 @@
-//! Diagrams built in the space dual to the self-stresses of the present joints.
+//! Diagrams in the space dual to the self-stresses of the present joints.
 //!
 //! A node is what the choices so far add there, within what the rest can still reach: the rest must reach all that is missing, or
 //! the node is dead. That space is smaller than the motions of all links, and nodes that differ in what a present joint to

@@ -1,8 +1,7 @@
 //! Which halves together span the space dual to self-stresses.
 //!
-//! What the variables of the front half add is known within what those of the back half reach, and the other way round, in the same
-//! coordinates. Variants have no redundant constraint where both together span all coordinates of contours that are reached there, and keep
-//! the motion of kept links where nothing of both together is in the coordinates of these alone.
+//! Each half adds vectors in the coordinates that both halves reach. A variant has no redundant constraint if both halves together span all
+//! coordinates of contours. It keeps the motion of kept links if no combination of both lies in the coordinates of kept links alone.
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
@@ -30,12 +29,12 @@ pub(in crate::search) struct Halves<'a> {
     pub(in crate::search) limits: &'a Limits,
     /// Redundant constraints that every variant has.
     pub(in crate::search) already: u32,
-    /// When the coordinates of contours are in use from the front, and the order in which they stand from the back.
+    /// The lifetimes of the coordinates of contours from the front, and their order from the back.
     contours: Vec<Lifetime>,
     turned: Vec<usize>,
     /// Whether vectors have a number for the motion of kept links behind the coordinates of contours.
     keeps: bool,
-    /// Where each part starts, and the number of variables at the end.
+    /// The start of each part, and at the end the number of variables.
     starts: Vec<usize>,
     /// The stages of each part, between which nothing is carried on, from the front and from the back.
     pub(in crate::search) parts: Vec<[Vec<Adding>; 2]>,
@@ -81,7 +80,7 @@ impl<'a> Halves<'a> {
         })
     }
 
-    /// Returns how the nodes of the front half of a part meet those of the back half, which has so many of the last stages.
+    /// Returns how the nodes of the front half of a part meet those of the back half, which consists of the last `stages` stages.
     ///
     /// # Complexity
     /// O(s³) field operations for each node, for s self-stresses that both halves reach.

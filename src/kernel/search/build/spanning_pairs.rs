@@ -1,9 +1,10 @@
 //! Which nodes of the back half complete one of the front, pair by pair.
 //!
-//! Together both must span all coordinates of contours that they reach. What the front does not span yet is known by linear forms that are
-//! zero on all that it spans. The rows of a node of the back are taken one after another: a row is new if one of the forms is not zero on
-//! it, and the others are then made zero there. Nodes whose bases begin alike are examined together, so that most pairs take one sum of
-//! products. One more form has the motion of kept links, and is needed for a row that is not new: no combination may move these alone.
+//! Together both must span all coordinates of contours that they reach. Linear forms describe what the front does not span: they are zero
+//! on all that it spans. The rows of a node of the back are taken one after another. A row is new if one of the forms is not zero on it;
+//! the others are then changed so that they are zero there. Nodes whose bases have the same beginning are examined together, so most pairs
+//! take one sum of products. One more form includes the motion of kept links. It must be zero on each row that is not new, because no
+//! combination may move kept links alone.
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::{Field, Residue};
@@ -13,7 +14,7 @@ use hashbrown::HashMap;
 /// A node of the back, with its rows as numbers of vectors.
 type Rows = (Vec<usize>, usize);
 
-/// The bases of the nodes of the back, those that begin alike one after another.
+/// The bases of the nodes of the back, sorted so that equal beginnings are adjacent.
 pub(super) struct Bases {
     field: Field,
     vectors: Vec<Vec<Residue>>,

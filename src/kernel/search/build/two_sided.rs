@@ -1,11 +1,10 @@
 //! Diagrams built from both ends, where equal motion spaces are too many.
 //!
-//! Nodes with the same futures may differ in what they add to the present joints, and in coupled contours most do. Here one half of
-//! the variables is taken from the front and the other from the back, until they meet; which nodes of the one complete which of
-//! the other is [looked up](super::matching_halves), or tested for every pair. What a node of the front is completed by says all of its
-//! future, so those with the same set are one, as are those of the back that complete the same. The sets lead on: a variable's choice turns
-//! the set of completions by what is left, read off the edges of the half that came from the back. The outcome is the smallest diagram there
-//! is, and exact.
+//! Nodes with the same completions may add different vectors to the present joints. In coupled contours most do. Here one half of the
+//! variables is taken from the front and the other half from the back, until they meet. The pairs of nodes that complete each other are
+//! [looked up](super::matching_halves) or tested. Nodes of the front with the same set of completing nodes are one node, and so are nodes
+//! of the back that complete the same nodes. From there on, each choice maps such a set to a set of the next layer, read from the edges of
+//! the back half. The result is the smallest diagram, and exact.
 //!
 //! # Sources
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
@@ -67,8 +66,8 @@ impl Met<'_> {
     }
 }
 
-/// The whole diagram of a question whose variants have no redundant constraints but those that all have, part by part; none where
-/// it does not fit the limits either, or where it is cancelled.
+/// Returns the whole diagram of a question whose variants have no redundant constraints except those that all have, part by part. Returns
+/// `None` if it does not fit the limits, or if cancelled.
 ///
 /// # Complexity
 /// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.

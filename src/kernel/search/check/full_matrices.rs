@@ -11,12 +11,11 @@ use crate::search::question::throughout::{ColumnSeries, ORDER};
 use crate::search::reduce::self_stress_space::{ClosingRows, Part};
 use std::ops::Range;
 
-/// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
-/// behind it.
+/// The twists of a choice at each joint of its variable, each followed by the joint's entries in the rows of its couplings.
 pub(crate) type Spans<N> = Vec<Vec<Vec<N>>>;
 
-/// What the rows of the matrices are: contours and couplings of the free state, motions of the kept links, and contours and
-/// couplings of the searched state, all of them once more.
+/// The rows of the matrices: contours and couplings of the free state, motions of the kept links, and all contours and couplings of the
+/// searched state.
 pub(in crate::search) struct RowLayout<'a> {
     dim: usize,
     free: ClosingRows<'a>,
@@ -77,7 +76,7 @@ impl RowLayout<'_> {
         })
     }
 
-    /// The column of a twist at a joint; behind it stand the joint's rates.
+    /// Returns the column of a twist at a joint, which is followed by the joint's rates.
     pub(in crate::search) fn column<S: Scalars>(
         &self,
         s: &S,

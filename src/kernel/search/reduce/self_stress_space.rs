@@ -1,10 +1,9 @@
-//! What choices add to the present joints, in the space dual to the present self-stresses.
+//! The vectors that choices add to the present joints, in the space dual to the present self-stresses.
 //!
-//! Every choice lets its joint do all that the present one does, so what the present joints close is closed in every variant.
-//! What is left of the closure equations without it has a dimension for each self-stress of the mechanism as it is: 11 for the
-//! ten-link gripper, whose equations have 24 rows. A variant has no redundant constraint if the motions that it adds span that
-//! space. The motions of kept links are further coordinates, of which the present motions are taken out as well: a variant keeps
-//! them if it adds nothing that closes every contour and moves a kept link.
+//! Every choice allows the motions of the present joint, so every variant closes what the present joints close. The rest of the closure
+//! equations has a dimension for each self-stress of the present mechanism: 11 for the ten-link gripper, whose equations have 24 rows. A
+//! variant has no redundant constraint if its added motions span that space. The motions of kept links are further coordinates, modulo the
+//! present motions. A variant keeps them if no added motion closes every contour and moves a kept link.
 //!
 //! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
 //! later ones reach too, so that all that is forgotten after a variable stands in front. Each starts as late as can be.
@@ -24,7 +23,7 @@ use std::ops::Range;
 /// A vector of the added motions of a choice.
 type Added = Vec<Residue>;
 
-/// What the choices of some variables add, in coordinates fit for their order.
+/// The vectors that the choices of some variables add, in coordinates for their order.
 #[derive(Debug)]
 pub(in crate::search) struct SelfStressSpace {
     /// For each variable in order and each of its choices, independent vectors of what it adds: the coordinates of the contours, then
@@ -40,7 +39,7 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) moves_kept: bool,
 }
 
-/// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
+/// The rows to which the motion of each joint contributes: its contours, its couplings, and the links it moves.
 pub(in crate::search) struct ClosingRows<'m> {
     mechanism: &'m Mechanism,
     dim: usize,
@@ -194,7 +193,7 @@ impl<'m> ClosingRows<'m> {
     }
 }
 
-/// What of a joint's motion goes to a row.
+/// The part of a joint's motion that contributes to a row.
 pub(in crate::search) enum Part {
     /// The twist, to this row and those after it.
     Twist { forward: bool },
@@ -235,7 +234,7 @@ impl Basis {
     }
 }
 
-/// What of vectors is not what the present joints do.
+/// Reduces vectors modulo the motions of the present joints.
 struct BesidePresent {
     present: Echelon,
     width: usize,
@@ -244,7 +243,7 @@ struct BesidePresent {
 }
 
 impl BesidePresent {
-    /// Of what the present joints do, in vectors of a width.
+    /// Prepares the reduction, for vectors of a width.
     fn new(field: Field, all: impl Iterator<Item = Added>, width: usize) -> BesidePresent {
         let present = Echelon::of(field, all);
         let pivots = present.pivots();
@@ -256,7 +255,7 @@ impl BesidePresent {
         }
     }
 
-    /// What is left of the units of some coordinates.
+    /// Returns the reduced unit vectors of some coordinates.
     fn units(&self, field: Field, coordinates: Range<usize>) -> Echelon {
         let units = coordinates.map(|i| {
             let mut unit = vec![0; self.width];
@@ -266,7 +265,7 @@ impl BesidePresent {
         Echelon::of(field, units)
     }
 
-    /// What is left of a vector.
+    /// Returns a reduced vector.
     fn left(&self, mut column: Vec<Residue>) -> Vec<Residue> {
         self.present.reduce(&mut column);
         self.open.iter().map(|&i| column[i]).collect()
@@ -281,8 +280,8 @@ struct Reached {
 }
 
 impl Reached {
-    /// Of what the choices of variables add, its coordinates from `first` on, beyond what is known: from the last variable on, what
-    /// each is the last to reach.
+    /// Returns the vectors that choices of variables add beyond `known`, in the coordinates from `first` on. Starting at the last variable,
+    /// each vector is listed with the last variable that reaches it.
     fn last(added: &[Vec<Vec<Added>>], first: usize, mut known: Echelon) -> Reached {
         let mut out = Reached::default();
         for (t, choices) in added.iter().enumerate().rev() {
