@@ -43,17 +43,13 @@ fn with_options(names: &[&str], joints: usize) -> Mechanism {
     m
 }
 
-fn search(m: &Mechanism, whole_twists: bool) -> Search {
-    let conditions = Conditions {
-        whole_twists,
-        ..Conditions::default()
-    };
-    Search::new(exact_field(m, 0).expect("exact"), m, conditions).expect("valid")
+fn search(m: &Mechanism) -> Search {
+    Search::new(exact_field(m, 0).expect("exact"), m, Conditions::default()).expect("valid")
 }
 
 /// Both counts and the `top` best; returns nodes and the largest layer.
 fn whole(m: &Mechanism, top: usize) -> (usize, usize) {
-    counted(&search(m, false), top)
+    counted(&search(m), top)
 }
 
 /// The same of a search.
@@ -94,13 +90,13 @@ fn twins(c: &mut Criterion) {
     let mut group = c.benchmark_group("diagram against brute force");
     group.bench_function("R S, 4096 variants, diagram", |b| b.iter(|| whole(&rs, 0)));
     group.bench_function("R S, 4096 variants, brute force", |b| {
-        b.iter(|| every_variant(&search(&rs, false)))
+        b.iter(|| every_variant(&search(&rs)))
     });
     group.bench_function("R C U S, 16777216 variants, diagram", |b| {
         b.iter(|| whole(&rcus, 0))
     });
     group.bench_function("R C U S, 4096 of 16777216 variants, brute force", |b| {
-        b.iter(|| every_variant(&search(&part, false)))
+        b.iter(|| every_variant(&search(&part)))
     });
     group.finish();
 }
@@ -142,20 +138,18 @@ fn spaces(c: &mut Criterion) {
     for (name, m) in [("7 options", &seven), ("13 options", &thirteen)] {
         println!(
             "{name}: {} variants, (nodes, largest layer) = {:?}",
-            search(m, false).size(),
+            search(m).size(),
             whole(m, 100)
         );
         group.bench_function(BenchmarkId::new("counts and 100 best", name), |b| {
             b.iter(|| whole(m, 100))
         });
-        // The diagrams alone: with the rows that choices differ in, and with all of them.
-        for (rows, whole_twists) in [("least rows", false), ("all rows", true)] {
-            let s = search(m, whole_twists);
-            let orders = s.orders();
-            group.bench_function(BenchmarkId::new(rows, name), |b| {
-                b.iter(|| s.build_in(&orders, &|| false, &mut |_| {}))
-            });
-        }
+        // The diagrams alone.
+        let s = search(m);
+        let orders = s.orders();
+        group.bench_function(BenchmarkId::new("diagrams", name), |b| {
+            b.iter(|| s.build_in(&orders, &|| false, &mut |_| {}))
+        });
     }
     group.finish();
     let mut group = c.benchmark_group("k best of 7 options");

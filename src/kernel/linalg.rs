@@ -2,7 +2,6 @@
 //! with rational numbers as integers over a common denominator.
 
 pub mod echelon;
-pub(crate) mod exterior;
 pub mod modp;
 pub mod number_ring;
 

@@ -9,10 +9,10 @@
 //! space of motions of the links that still have joints to choose.
 
 pub mod answer;
+pub mod at_tolerance;
 pub mod build;
 pub mod check;
 pub mod diagram;
-pub mod numeric;
 pub(crate) mod order;
 pub mod question;
 mod reduce;
@@ -26,10 +26,10 @@ use crate::search::answer::ideas::{self, Idea, IdeaBasis};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::least_freedoms::{self, Less};
 use crate::search::answer::variants_in_order;
+use crate::search::at_tolerance::AtTolerance;
 use crate::search::build::Diagrams;
 use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Progress};
-use crate::search::numeric::at_tolerance::{self, AtTolerance};
 use crate::search::question::Question;
 use crate::search::question::conditions::{Conditions, SearchError};
 use crate::search::question::rounded_rank::Digits;
@@ -91,11 +91,10 @@ impl Search {
         build::build_in(self, orders, cancelled, progress)
     }
 
-    /// Returns whether all [minimal variants](Self::minimal_variants) of another search are determinate here, or `None`
-    /// if that cannot be decided without diagrams.
+    /// Returns whether all variants of another search's diagram are determinate here.
     #[must_use]
-    pub fn has_all(&self, known: &Diagram) -> Option<bool> {
-        build::known_variants::has_all(self, known)
+    pub fn has_all(&self, known: &Diagram) -> bool {
+        build::has_all(self, known)
     }
 
     /// Returns the counts of the variants of a diagram; `filter` also applies the conditions on mobility and changes.

@@ -13,7 +13,6 @@ mod held;
 pub(crate) mod ideas;
 mod inside;
 mod known_variants;
-mod least_model;
 mod listed;
 mod none_at_once;
 mod order;

@@ -15,7 +15,6 @@ use crate::chains::{Symmetry, graph6};
 use crate::model::mechanism::Mechanism;
 use crate::search::Search;
 use crate::search::answer::ideas::{Idea, IdeaBasis};
-use crate::search::build::orders::Orders;
 use crate::search::diagram::{Diagram, Stop};
 use crate::synthesis::mechanism::bare_file;
 use crate::synthesis::places::Places;
@@ -33,8 +32,6 @@ const PAIRS_OF_PLACES: usize = 4;
 /// A chain and an input, of which all layouts in general position have the same determinate variants.
 #[derive(Debug)]
 pub struct General {
-    /// The order in which diagrams take the joints.
-    orders: Orders,
     /// The determinate variants.
     diagram: Diagram,
     /// Of these the minimal ones, where they are known.
@@ -145,7 +142,6 @@ impl General {
             if same(diagram, &twin) {
                 return Ok(Some(General {
                     counts: one.counts(diagram, false).by_mobility_and_changes,
-                    orders,
                     minimal: one.minimal_variants(&diagrams),
                     idea_variants: one.idea_variants(&diagrams),
                     ideas: Mutex::default(),
@@ -164,19 +160,14 @@ impl General {
     /// Where the mechanism cannot be searched.
     ///
     /// # Complexity
-    /// Half of the minimal variants from either end; one diagram, where that is not known to do.
+    /// That of [`Search::has_all`] for the minimal variants.
     pub(super) fn certify(
         &self,
         layout: Mechanism,
         spec: &Spec,
     ) -> Result<Option<Search>, RowError> {
         let search = search(layout, spec, 0)?;
-        let minimal = self.minimal.as_ref();
-        let has_all = minimal.and_then(|known| search.has_all(known));
-        let has_all = has_all.unwrap_or_else(|| {
-            let built = search.build_in(&self.orders, &|| false, &mut |_| {});
-            same(&self.diagram, &built.determinate)
-        });
+        let has_all = search.has_all(self.minimal.as_ref().unwrap_or(&self.diagram));
         Ok(has_all.then_some(search))
     }
 

@@ -115,13 +115,9 @@ impl Bar {
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
-        let (what, done, of) = match p.meeting {
-            None => ("joint", p.done, p.of),
-            Some(m) => ("meeting", m.done, m.of),
-        };
-        bar.set_prefix(what);
-        bar.set_length(of as u64);
-        bar.set_position(done as u64);
+        bar.set_prefix("joint");
+        bar.set_length(p.of as u64);
+        bar.set_position(p.done as u64);
         bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
     }
 

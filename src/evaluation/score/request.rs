@@ -362,7 +362,6 @@ impl Request {
             counted: self.counted,
             cheapest: self.cheapest(&prepared.mechanism)?,
             estimate: (self.symmetry != Symmetry::OnePerOrbit).then_some(self.seed),
-            whole_twists: false,
             nodes: self.nodes.clamp(1, u32::MAX as usize / 2),
             memory: self.memory,
             tolerance,

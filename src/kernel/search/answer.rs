@@ -1,6 +1,6 @@
-//! What is read off finished diagrams: counts, the cheapest in order, samples, ideas, single changes, and why there is nothing.
+//! Results read from finished diagrams: counts, the cheapest variants in order, samples, ideas, single changes, and reasons why nothing is
+//! found.
 
-pub(in crate::search) mod completions;
 pub(crate) mod count;
 pub(crate) mod count_tables;
 pub mod counts;

@@ -3,15 +3,12 @@
 pub(in crate::search) mod at_most;
 pub(in crate::search) mod completing_sets;
 mod estimates;
-mod known_spaces;
-pub(in crate::search) mod known_variants;
 pub(in crate::search) mod lanes;
 mod matching_halves;
 pub mod orders;
-mod path_tree;
 pub(in crate::search) mod self_stress;
 pub(in crate::search) mod spanning_halves;
-mod spanning_paths;
+mod spanning_pairs;
 pub(in crate::search) mod two_sided;
 
 use crate::search::answer::estimate::Estimate;
@@ -24,35 +21,35 @@ use crate::search::build::self_stress::{Wanted, limits, nothing};
 use crate::search::build::spanning_halves::Halves;
 use crate::search::build::two_sided::two_sided;
 use crate::search::diagram::completion::Missing;
-use crate::search::diagram::layer::CUT;
+use crate::search::diagram::layer::{CUT, DEAD, Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
-use crate::search::diagram::{self, Diagram, Progress, Stop};
+use crate::search::diagram::{self, Diagram, Progress, Stop, next};
 use crate::search::question::Question;
 use crate::search::question::throughout::PoseOnly;
+use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::Zero;
+use std::collections::BTreeSet;
 
 /// Diagrams of one question.
 #[derive(Debug)]
 pub struct Diagrams {
-    /// Of the variants that meet the redundancy condition of the free state.
+    /// The variants that meet the redundancy condition of the free state.
     pub determinate: Diagram,
-    /// Of those that meet every condition that does not depend on counts of changes and mobility.
+    /// The variants that meet every condition except those on mobility and changes.
     pub admissible: Diagram,
-    /// Of those of the admissible ones that keep the motion throughout, or why there is no such diagram.
+    /// The admissible variants that keep the motion throughout, or the reason why there is no such diagram.
     pub lasting: Result<Diagram, PoseOnly>,
     /// The cheapest of the admissible ones, where they are wanted and that diagram is not whole.
     pub cheapest: Option<UpTo>,
     /// About how many determinate and admissible variants there are, where their diagrams are cut down and a seed is given.
     pub estimates: [Option<Estimate>; 2],
-    /// Rows of the closure equations for each contour that they are built of: fewer than a twist has numbers where the rest is
-    /// the same whatever is chosen.
+    /// Rows of the closure equations for each contour.
     pub rows_per_contour: usize,
 }
 
 impl Diagrams {
-    /// The diagram of the variants that are listed: those that keep the motion throughout, where that is known, or else the admissible
-    /// ones.
+    /// Returns the diagram of the listed variants: those that keep the motion throughout if that is known, otherwise the admissible ones.
     #[must_use]
     pub fn listed(&self) -> &Diagram {
         self.lasting.as_ref().unwrap_or(&self.admissible)
@@ -64,7 +61,7 @@ impl Diagrams {
         self.determinate.stop.or(self.admissible.stop)
     }
 
-    /// The cost in thousandths up to which every admissible variant is known; `None` where of none it can be said.
+    /// Returns the cost in thousandths up to which every admissible variant is known; `None` if there is no such cost.
     #[must_use]
     pub fn known_up_to(&self) -> Option<i64> {
         let whole = self.admissible.stop == Stop::Exhausted;
@@ -128,7 +125,7 @@ pub(crate) fn build_in(
         lasting,
         cheapest,
         estimates,
-        rows_per_contour: question.model.space.dim,
+        rows_per_contour: question.space.dim,
     }
 }
 
@@ -141,7 +138,7 @@ fn build_lasting(
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
 ) -> Result<Diagram, PoseOnly> {
-    let along = question.throughout.as_ref().map_err(PoseOnly::clone)?;
+    question.throughout.as_ref().map_err(PoseOnly::clone)?;
     if !is_whole(at_the_pose) {
         return Err(PoseOnly::Budget);
     }
@@ -150,7 +147,6 @@ fn build_lasting(
     }
     // It is wanted whole or not at all.
     let limits = Limits {
-        already: along.model.already,
         layer: question.conditions.nodes,
         ..limits(question)
     };
@@ -210,19 +206,8 @@ fn built(
     if most.is_some_and(|m| m.diagram.terminals.is_empty()) {
         return nothing(question, order);
     }
-    let mut from_one_end = |nodes: usize, progress: &mut (dyn FnMut(Progress) + Send)| {
-        // What grows on and on is given up early.
-        let limits = Limits {
-            nodes: nodes.min(limits.nodes),
-            layer: nodes / 3,
-            ..limits.clone()
-        };
-        let found = (limits.nodes > few.nodes).then(|| within(&limits, progress))?;
-        is_whole(&found).then_some(found)
-    };
     let halves = Halves::new(question, order, limits, wanted);
-    let space = &wanted.model(question).space;
-    let whole = halves.and_then(|h| two_sided(&h, space, cancelled, progress, &mut from_one_end));
+    let whole = halves.and_then(|h| two_sided(&h, &question.space, cancelled, progress));
     let mut found = match whole {
         Some(whole) => whole,
         None if few.nodes < limits.nodes => within(limits, progress),
@@ -249,7 +234,7 @@ fn prove(
         return None;
     }
     let Lanes { stages, root } = Lanes::new(question, order, limits, Wanted::Admissible);
-    let space = &question.model.space;
+    let space = &question.space;
     let missing = Missing::new(space, &stages, &root, limits);
     if missing.root().is_none() {
         // There is none, by dimensions alone.
@@ -282,4 +267,58 @@ fn prove(
         admissible.stop = Stop::Interrupted;
     }
     cheapest
+}
+
+/// Returns whether every variant of a diagram is determinate in a question, with the same redundant constraints. The spaces that variants of
+/// the diagram lead to are followed layer by layer, and no others.
+///
+/// # Complexity
+/// At most that of the diagram of the question, and O(n·choices) for n pairs of a node of the diagram and a space.
+pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
+    let order: Vec<usize> = known.layers.iter().map(|l| l.variable).collect();
+    let limits = limits(question);
+    let Lanes { stages, root } = Lanes::new(question, &order, &limits, Wanted::Determinate);
+    let mut nodes = Nodes::root(root);
+    let mut reached = BTreeSet::from([(0, 0)]);
+    for (stage, layer) in stages.iter().zip(&known.layers) {
+        let edges = nodes.len() * layer.choices;
+        let merge = next(
+            stage,
+            &question.space.variables[layer.variable].choices,
+            limits.bytes,
+            &nodes,
+            Merge::new(usize::MAX, usize::MAX, Stop::Exhausted, edges),
+            |_, _, _| false,
+            &|| false,
+            &mut |_| {},
+        );
+        let mut below = BTreeSet::new();
+        for &(space, node) in &reached {
+            for choice in 0..layer.choices {
+                let to = layer.edges[node as usize * layer.choices + choice];
+                let space = merge.edges[space as usize * layer.choices + choice];
+                match (space, to) {
+                    (_, DEAD) => {}
+                    (DEAD, _) => return false,
+                    both => drop(below.insert(both)),
+                }
+            }
+        }
+        let kept: Vec<usize> = below
+            .iter()
+            .map(|(space, _)| *space as usize)
+            .dedup()
+            .collect();
+        let place = |space: u32| kept.partition_point(|&k| k < space as usize) as u32;
+        reached = below
+            .iter()
+            .map(|&(space, node)| (place(space), node))
+            .collect();
+        nodes = merge.next;
+        nodes.retain(&kept);
+    }
+    let mut ends = reached.iter();
+    ends.all(|&(space, node)| {
+        nodes.spent[space as usize].redundancy() == known.terminals[node as usize]
+    })
 }

@@ -1,4 +1,4 @@
-//! Twins and second opinions: every variant looked at, another prime, singular values, other poses. No diagram is built with any of it.
+//! Independent checks: brute force, another prime, singular values, other poses. None of them builds a diagram.
 
 pub mod brute;
 pub mod brute_float;

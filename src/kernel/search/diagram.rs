@@ -25,15 +25,6 @@ use crate::search::diagram::transition::{Children, Worker};
 use crate::search::question::space::{Choice, Space};
 use rayon::prelude::*;
 
-/// How many nodes of the front have met those of the back, where a diagram is built from both ends.
-#[derive(Debug, Clone, Copy)]
-pub struct Meeting {
-    /// Nodes that have met all of the back.
-    pub done: usize,
-    /// Nodes of the front in all.
-    pub of: usize,
-}
-
 /// Building progress, for whoever shows it.
 #[derive(Debug, Clone, Copy)]
 pub struct Progress {
@@ -45,8 +36,6 @@ pub struct Progress {
     pub nodes: usize,
     /// Nodes of the present layer.
     pub layer: usize,
-    /// How far halves have met, while they do.
-    pub meeting: Option<Meeting>,
 }
 
 impl Progress {
@@ -62,7 +51,6 @@ impl Progress {
             of,
             nodes: before + layer,
             layer,
-            meeting: None,
         }
     }
 }
@@ -85,7 +73,7 @@ pub struct Layer {
 pub struct Diagram {
     /// The layers in order; layer 0 has the root alone.
     pub layers: Vec<Layer>,
-    /// Of each terminal node, the redundant constraints.
+    /// The redundant constraints of each terminal node.
     pub terminals: Vec<Redundancy>,
     /// Why building ended.
     pub stop: Stop,
@@ -96,7 +84,7 @@ pub struct Diagram {
 }
 
 impl Diagram {
-    /// Of layers that nothing was left out of.
+    /// Returns a diagram of complete layers.
     pub(in crate::search) fn whole(layers: Vec<Layer>, terminals: Vec<Redundancy>) -> Diagram {
         let sizes = || layers.iter().map(|l| l.nodes).chain([terminals.len()]);
         Diagram {
@@ -108,8 +96,7 @@ impl Diagram {
         }
     }
 
-    /// Where the choices for the variables lead: the redundant constraints of a variant that the diagram has,
-    /// `None` for one that it has not.
+    /// Returns the redundant constraints of a variant; `None` if the diagram does not have it.
     #[must_use]
     pub fn end(&self, choices: &[usize]) -> Option<Redundancy> {
         let mut node = 0;
@@ -199,7 +186,7 @@ fn carried(ways: &[f64], edges: &[u32], choices: usize, next: usize) -> Vec<f64>
     out
 }
 
-/// Cuts a layer down to so many nodes; gives the ways to those that are kept.
+/// Reduces a layer to `keep` nodes. Returns the number of paths to each kept node.
 fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) -> Vec<f64> {
     if next.len() <= keep {
         return ways;
@@ -209,7 +196,7 @@ fn cut_down(next: &mut Nodes, edges: &mut [u32], ways: Vec<f64>, keep: usize) ->
     kept.iter().map(|&i| ways[i]).collect()
 }
 
-/// What carries nodes over a variable.
+/// A stage: it computes the children of nodes at a variable.
 pub(super) trait Carries: Sync {
     /// Index of the variable in the space.
     fn variable(&self) -> usize;
@@ -221,8 +208,8 @@ pub(super) trait Carries: Sync {
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children);
 }
 
-/// The children of a layer's nodes put together, but for those that are `out` of the question; `told` hears how many there are
-/// so far.
+/// Returns the merged children of a layer's nodes, without those that are `out` of the question. `told` receives the number of children so
+/// far.
 #[allow(
     clippy::too_many_arguments,
     reason = "one layer of a diagram, or of half of one"
@@ -263,7 +250,7 @@ pub(super) fn next(
 const CHILDREN: usize = 1 << 23;
 /// Nodes expanded at most before their children are merged.
 const MOST: usize = 1 << 14;
-/// Field operations on them at most, so that whoever cancels need not wait: less than a tenth of a second.
+/// Maximum number of field operations between two checks for cancellation: less than a tenth of a second.
 const BATCH: usize = 1 << 25;
 
 /// Fewer children than this are not worth waking threads for.

@@ -33,7 +33,7 @@ pub(super) fn variable_order(
     later: &[usize],
 ) -> Vec<usize> {
     let all: Vec<usize> = blocks.iter().flat_map(|b| b.variables.clone()).collect();
-    let place = canonical(&question.mechanism, &question.model.space, &all);
+    let place = canonical(&question.mechanism, &question.space, &all);
     let mut block_of = BTreeMap::new();
     for (b, block) in blocks.iter().enumerate() {
         block_of.extend(block.variables.iter().map(|&v| (v, b)));
@@ -48,7 +48,7 @@ pub(super) fn variable_order(
         sorted[b].push(v);
     }
     met.sort_by_key(|&b| !blocks[b].apart);
-    let (field, space) = (question.exact.field(), &question.model.space);
+    let (field, space) = (question.exact.field(), &question.space);
     let of = |b: usize| match &sorted[b][..] {
         [one] => vec![*one],
         variables => {

@@ -1,4 +1,4 @@
-//! What is asked: the space of variants, what they must be like, what they cost, and the mechanism made ready for it.
+//! The question of a search: the space of variants, their conditions and costs, and the prepared mechanism.
 
 pub mod as_written;
 pub mod conditions;
@@ -25,18 +25,17 @@ use crate::search::question::own_images::OwnSymmetry;
 use crate::search::question::space::{Space, Variable, choice_name};
 use crate::search::question::throughout::{PoseOnly, Throughout};
 use crate::search::reduce::biconnected::{Block, blocks};
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::is_contained;
 use itertools::Itertools;
 use num_bigint::BigUint;
 use std::sync::Arc;
 
-/// What is asked, made ready: the space of variants, its costs, and what diagrams are built of.
+/// A prepared question: the space of variants, its costs, and the data of its diagrams.
 #[derive(Debug)]
 pub struct Question {
     /// The mechanism.
     pub mechanism: Arc<Mechanism>,
-    /// What variants must be like.
+    /// The conditions on variants.
     pub conditions: Conditions,
     /// The space (with images of each other as one variable where only symmetric variants are wanted).
     pub space: Space,
@@ -44,18 +43,16 @@ pub struct Question {
     pub steps: Steps,
     /// The field in which it is answered, with all numbers of the mechanism.
     pub exact: ExactField,
-    /// What its diagrams are built of.
-    pub(in crate::search) model: Model,
     /// The contours of the free state, and the rows of J in it.
     pub(in crate::search) contours: Vec<Contour>,
     pub(in crate::search) rows: i64,
-    /// What must move as it does now.
+    /// The links and drives that must keep their motion.
     pub(in crate::search) kept: Kept,
     /// The choices along the motion, or why only the drawn pose is asked about.
     pub(in crate::search) throughout: throughout::Followed,
     /// Dimension of that motion by singular values, where exact arithmetic has another mechanism than the one meant.
     pub(in crate::search) present: Option<usize>,
-    /// What must be held in the searched state.
+    /// The bodies that must be held in the searched state.
     pub(in crate::search) grasps: Vec<Grasp>,
     /// The blocks of the diagram of determinate variants, and of the other.
     pub(in crate::search) blocks: [Vec<Block>; 2],
@@ -149,7 +146,7 @@ impl Question {
     /// Makes a question ready; a mechanism given by reference is copied.
     ///
     /// # Errors
-    /// Where the geometry has no exact image, or symmetry is asked of an unsymmetric file.
+    /// Returns an error if the geometry has no exact image, or if symmetry is required of an unsymmetric file.
     pub fn new(
         exact: ExactField,
         mechanism: impl Into<Arc<Mechanism>>,
@@ -213,13 +210,6 @@ impl Question {
             Throughout::new(&exact, &mechanism, &conditions, &space, &contours, &kept)?;
         Ok(Question {
             throughout,
-            model: Model::least(
-                &exact,
-                &mechanism,
-                &contours,
-                &space,
-                conditions.whole_twists,
-            )?,
             grasps: grasps.collect(),
             blocks: both_blocks(&mechanism, &space, &pinned, &contours),
             contours,
@@ -257,11 +247,11 @@ impl Question {
         self.grasps.iter().map(|g| g.body)
     }
 
-    /// The bodies that must be held and are not in the mechanism as it is, in a sentence each: no option takes a motion away,
-    /// so no variant holds them.
+    /// Returns a warning for each body that must be held and is loose in the present mechanism. No option removes a motion, so no variant
+    /// holds such a body.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     pub fn already_loose(&self) -> Result<Vec<String>, ExactError> {
         let Some(s) = self.conditions.state else {
             return Ok(Vec::new());
@@ -325,7 +315,7 @@ impl Question {
         i64::from(key.freedoms()) - self.rows + i64::from(key.internal())
     }
 
-    /// What variants are put in order by before their choices: cost, then W, then changes, then whatever else tells keys apart.
+    /// Returns the sort key of variants: cost, then W, then changes, then the other properties.
     #[must_use]
     pub fn rank(&self, key: Key) -> (u64, i64, u32, Key) {
         (key.cost(), self.mobility(key), key.changes(), key)

@@ -1,7 +1,5 @@
-//! The same question in less: parts that can be taken one after another, the rows of the closure equations that matter, and what
-//! choices add to the present joints.
+//! Reductions of the question: parts that can be taken one after another, and the vectors that choices add to the present joints.
 
 pub(in crate::search) mod biconnected;
 pub(in crate::search) mod lifetimes;
-pub(in crate::search) mod plane_split;
 pub(in crate::search) mod self_stress_space;

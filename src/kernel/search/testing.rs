@@ -1,14 +1,14 @@
 //! What tests alone need of the inside of a search, and nothing else may use.
 
 use super::answer::ideas::{IdeaBasis, idea_variants, ideas_in_steps};
-use super::answer::k_best::{Assignment, Cheapest, Enter, ListLimits, Reach};
+use super::answer::k_best::{Cheapest, Enter, ListLimits, Reach};
 use super::answer::keys::Key;
+use super::build::Diagrams;
 use super::build::lanes::in_self_stress_space;
 use super::build::orders::{one_diagram, orders};
 use super::build::self_stress::{Wanted, limits};
 use super::build::spanning_halves::Halves;
 use super::build::two_sided::two_sided;
-use super::build::{Diagrams, build};
 use super::diagram::minimize::minimal;
 use super::diagram::{Diagram, Stop};
 use super::question::Question;
@@ -25,22 +25,12 @@ pub fn from_both_ends(question: &Question) -> Vec<[Option<Diagram>; 2]> {
     let of = |(order, wanted): (&Vec<usize>, Wanted)| {
         let one = in_self_stress_space(question, order, &limits, wanted, &never, &mut |_| {});
         let halves = Halves::new(question, order, &limits, wanted);
-        let space = &question.model.space;
-        let both = halves
-            .and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}, &mut |_, _| None));
+        let space = &question.space;
+        let both = halves.and_then(|halves| two_sided(&halves, space, &never, &mut |_| {}));
         (one.stop == Stop::Exhausted)
             .then(|| [Some(one), both].map(|d| d.map(|d| minimal(d.layers, d.terminals))))
     };
     both.into_iter().filter_map(of).collect()
-}
-
-/// The cheapest admissible variants of a question where so many steps from nodes are kept at once.
-#[must_use]
-pub fn cheapest_in_room(question: &Question, room: usize, top: usize) -> Vec<Assignment> {
-    let found = build(question, &|| false, &mut |_| {});
-    let mut all = cheapest(question, &found, top, Box::new(|_, _, _, _| true));
-    all.ways.room = room;
-    all.collect()
 }
 
 fn cheapest<'d>(
@@ -73,7 +63,7 @@ pub struct Walked {
     pub steps: usize,
 }
 
-/// What it takes to list the cheapest admissible variants.
+/// Counts the steps that listing the cheapest admissible variants takes.
 #[must_use]
 pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;
@@ -85,7 +75,7 @@ pub fn walked_for_variants(question: &Question, found: &Diagrams, top: usize) ->
     Walked { listed, steps }
 }
 
-/// What it takes to list the first ideas.
+/// Counts the steps that listing the first ideas takes.
 #[must_use]
 pub fn walked_for_ideas(question: &Question, found: &Diagrams, top: usize) -> Walked {
     let mut steps = 0;

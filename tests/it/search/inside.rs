@@ -3,18 +3,7 @@
 use crate::common::*;
 use ozols::search::build::{Diagrams, build};
 use ozols::search::question::Question;
-use ozols::search::testing::{Walked, cheapest_in_room, walked_for_ideas, walked_for_variants};
-
-/// Where there is room for few steps, they are forgotten again and again, and the list is the same.
-#[test]
-fn a_list_in_little_room_is_the_same() {
-    let m = built_in("gripper-10");
-    let exact = exact_field(&m, 0).unwrap();
-    let question = Question::new(exact, &m, Conditions::default()).unwrap();
-    let [little, all] = [1, usize::MAX].map(|room| cheapest_in_room(&question, room, 3000));
-    assert_eq!(little.len(), 3000);
-    assert_eq!(little, all);
-}
+use ozols::search::testing::{Walked, walked_for_ideas, walked_for_variants};
 
 /// A list ten times as long takes no more steps than k log k says.
 #[test]

@@ -14,19 +14,15 @@ use crate::rank::exact::modular;
 use crate::rank::reduce::sufficient_rows::LeastRows;
 use crate::score::outcome::variant::Change;
 use crate::score::request::{Check, List, Request};
-use crate::score::run::{answer, run};
-use crate::search::question::conditions::Conditions;
+use crate::score::run::run;
 use crate::search::question::cost::CostTable;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// Contours of the random scenes.
 const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
-/// Contours up to which a plane is searched.
-const SEARCHED: usize = 4;
 
-/// Returns the study of the least model of a scene, the rows of the closure equations that matter. It compares the rank, and the counts of a
-/// search, with those by all rows in space, which are the truth. Times are multiples of the time by all rows.
+/// Returns the study of the least model of a scene, the rows of the closure equations that matter. It compares the rank
+/// with that by all rows in space, which is the truth. Times are multiples of the time by all rows.
 pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let each = if effort.quick { 4 } else { 32 };
     let study = Study {
@@ -36,11 +32,11 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         column: "contours",
         values: CONTOURS.map(|k| k as f64).to_vec(),
         view: View::Ratios,
-        advice: "Nothing: a search takes the least rows by itself. For a single rank all rows are faster than finding the least. If planar mode omits freedoms, the analysis names their joints.",
+        advice: "Nothing: all rows are faster than finding the least. If planar mode omits freedoms, the analysis names their joints.",
         rows: Vec::new(),
     };
     let rows = Scene::ALL.map(Scene::name).into_iter();
-    let rows = rows.chain(["built-in mechanisms", "search in a plane"]);
+    let rows = rows.chain(["built-in mechanisms"]);
     let watch = Stopwatch {
         clock: effort.clock,
         repeat: 3,
@@ -50,7 +46,7 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
         Scene::ALL.len() * each + cases.len(),
         progress,
         |v, n| {
-            let mut replies = vec![None; Scene::ALL.len() + 2];
+            let mut replies = vec![None; Scene::ALL.len() + 1];
             let Some(&scene) = Scene::ALL.get(n / each) else {
                 let Case {
                     mechanism, state, ..
@@ -63,9 +59,6 @@ pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
             };
             let m = ladder(scene, CONTOURS[v], &mut Noise::new(effort.seed, n));
             replies[n / each] = by_rank(&m, StateId::FREE, watch);
-            if scene == Scene::Plane && n < 2 && CONTOURS[v] <= SEARCHED {
-                replies[Scene::ALL.len() + 1] = by_search(&m, watch);
-            }
             replies
         },
     )
@@ -78,28 +71,6 @@ fn by_rank(m: &Mechanism, state: StateId, watch: Stopwatch) -> Option<Reply> {
     let all = watch.time(|| modular::rank(&exact, &closure));
     let (least, time) = watch.time(|| LeastRows::new(&exact, m, &closure));
     Some(compared(m, all, (least.ok()?.rank(), time)))
-}
-
-/// Judges the counts of a search by the least rows.
-fn by_search(m: &Mechanism, watch: Stopwatch) -> Option<Reply> {
-    let request = Request {
-        list: List::Nothing,
-        check: Check::None,
-        ..Request::default()
-    };
-    let search = |whole_twists: bool| {
-        let ready = request.prepare(m.clone(), &mut |_| {}).ok()?;
-        let (conditions, measured) = request.conditions(&ready, &mut |_| {}).ok()?;
-        let conditions = Conditions {
-            whole_twists,
-            ..conditions
-        };
-        let m = Arc::new(ready.mechanism);
-        let found = answer(m, conditions, measured, &request, &|| false, &mut |_| {}).ok()?;
-        Some((found.determinate, found.admissible, found.lasting))
-    };
-    let [all, least] = [true, false].map(|whole| watch.time(|| search(whole)));
-    Some(compared(m, (all.0?, all.1), (least.0?, least.1)))
 }
 
 /// Returns whether two answers are the same, with the time of the second as a multiple of the time of the first.

@@ -8,11 +8,11 @@ use crate::score::run::ShouldCancel;
 use crate::search::answer::ideas;
 use crate::search::answer::ideas::Idea;
 use crate::search::answer::k_best::Assignment;
+use crate::search::at_tolerance::AtTolerance;
 use crate::search::check::other_poses::Stroke;
 use crate::search::check::singular_values;
 use crate::search::check::singular_values::{Certified, Summary};
 use crate::search::diagram::Stop;
-use crate::search::numeric::at_tolerance::AtTolerance;
 use crate::search::question::conditions::Symmetry;
 use itertools::Itertools;
 use num_traits::Zero;
@@ -120,7 +120,7 @@ impl Outcome {
         seed: u64,
     ) -> ListSource<'o> {
         let unranked = |v: Assignment| (v, None);
-        let sure = found.list(&self.search);
+        let sure = found.list();
         match list {
             List::Nothing => ListSource::of_variants(std::iter::empty()),
             List::Top(k) if distinct => {
@@ -130,7 +130,7 @@ impl Outcome {
             }
             List::Top(_) | List::All => ListSource::of_variants(sure.map(unranked)),
             List::Sample(n) => {
-                let drawn = found.drawn(&self.search, seed);
+                let drawn = found.drawn(seed);
                 ListSource::of_variants(drawn.take(n).map(unranked))
             }
         }

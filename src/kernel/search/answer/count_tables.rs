@@ -15,11 +15,11 @@ pub(crate) struct Tally<C> {
 }
 
 impl<C: Count> Tally<C> {
-    /// Counts backwards from the terminals. With a `bound` per node, completions whose cost exceeds it are left out:
-    /// `bound(layer, node)` is the largest cost of interest. `None` where the tables would take more than some bytes.
+    /// Counts backwards from the terminals. With a `bound` for each node, completions whose cost exceeds it are left out: `bound(layer,
+    /// node)` is the largest cost of interest. Returns `None` if the tables would take more than `bytes`.
     ///
     /// # Complexity
-    /// O(edges · table size + nodes · table size · log), with table sizes given by the kinds told apart.
+    /// O(edges · table size + nodes · table size · log), where the table sizes depend on the kinds that are distinguished.
     #[must_use]
     pub(crate) fn new(
         diagram: &Diagram,
@@ -40,6 +40,24 @@ impl<C: Count> Tally<C> {
         out.push(tables);
         out.reverse();
         Some(Tally { tables: out })
+    }
+
+    /// Returns where a choice leads from a node of a layer, what is left of a key there, and how many completions have that. Returns `None`
+    /// if none has.
+    pub(crate) fn follow(
+        &self,
+        diagram: &Diagram,
+        steps: &Steps,
+        (layer, node): (usize, u32),
+        choice: usize,
+        key: Key,
+    ) -> Option<(u32, Key, &C)> {
+        let here = &diagram.layers[layer];
+        let to = here.edges[node as usize * here.choices + choice];
+        let rest = Key(key.0.checked_sub(steps.keys[here.variable][choice].0)?);
+        let table = self.tables[layer + 1].get(to as usize)?;
+        let at = table.binary_search_by_key(&rest, |(k, _)| *k).ok()?;
+        Some((to, rest, &table[at].1))
     }
 
     /// Counts of whole variants by key.
@@ -106,13 +124,12 @@ fn product<C: Count>(many: &Table<C>, few: &Table<C>, bytes: usize) -> Option<Ta
 struct Numbers {
     /// All keys, ascending.
     keys: Vec<Key>,
-    /// Of each entry of each table, the number of its key.
+    /// For each entry of each table, the number of its key.
     places: Vec<Vec<u32>>,
 }
 
 impl Numbers {
-    /// Of places among some keys, of which those that no table has are left out: a bound leaves few, and what is carried on
-    /// would grow with each layer.
+    /// Returns the places among the keys that tables use. A bound leaves few keys, and unused ones would accumulate from layer to layer.
     fn of(mut keys: Vec<Key>, mut places: Vec<Vec<u32>>) -> Numbers {
         let mut is_met = vec![false; keys.len()];
         for &place in places.iter().flatten() {
@@ -154,14 +171,14 @@ fn number(place: usize) -> u32 {
 struct Shifts {
     /// All keys, ascending.
     keys: Vec<Key>,
-    /// Of each choice, which of the different shifts is its own.
+    /// For each choice, the index of its shift.
     of_choice: Vec<usize>,
     /// `to[shift][key below]`, a place in `keys`.
     to: Vec<Vec<u32>>,
 }
 
 impl Shifts {
-    /// Of the keys below and the choices' own, those of no more than a cost; `None` where they would take more than some bytes.
+    /// Returns the sums of the keys below and the keys of the choices, up to a cost. Returns `None` if they would take more than `bytes`.
     fn new(below: &[Key], choices: &[Key], most: u64, bytes: usize) -> Option<Shifts> {
         let mut different = choices.to_vec();
         different.sort_unstable();

@@ -25,7 +25,7 @@ pub struct Counts {
     pub by_redundant: BTreeMap<u32, BigUint>,
     /// By freedoms f.
     pub by_freedoms: BTreeMap<u32, BigUint>,
-    /// Whether the total alone is there, since the rest would take more than the memory there is.
+    /// True if only the total is known, because the rest would take more than the available memory.
     pub only_total: bool,
 }
 
@@ -235,7 +235,7 @@ fn bits(question: &Question, diagram: &Diagram) -> u64 {
     }
 }
 
-/// What must be told apart to know whether a variant meets the conditions on mobility and changes.
+/// Returns the properties that decide whether a variant meets the conditions on mobility and changes.
 pub(in crate::search) fn limited(question: &Question) -> Kinds {
     Kinds {
         freedoms: question.conditions.max_mobility.is_some(),

@@ -3,14 +3,17 @@
 use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::counts::{fits, limited};
-use crate::search::answer::k_best::{Assignment, Sample};
+use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::{Key, Kinds};
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
+use num_traits::Zero;
 
-/// Draws variants of a diagram without end, each with the same chance; `filter` applies the conditions on mobility and changes, too.
-/// None where what it takes to draw is more than the memory there is.
+/// Returns an endless sample of the variants of a diagram, each with the same probability. `filter` also applies the conditions on mobility
+/// and changes. The sample is empty if it takes more than the available memory.
 pub(in crate::search) fn sample_of<'a>(
     question: &'a Question,
     diagram: &'a Diagram,
@@ -24,6 +27,7 @@ pub(in crate::search) fn sample_of<'a>(
     }
 }
 
+/// Walks down the diagram for each variant, guided by the counts of completions.
 fn sample_with<'a, C: Count + 'a>(
     question: &'a Question,
     diagram: &'a Diagram,
@@ -35,9 +39,65 @@ fn sample_with<'a, C: Count + 'a>(
     } else {
         Kinds::default()
     };
-    let keys = question.steps.only(kinds);
-    let tally = Tally::<C>::new(diagram, &keys, None, question.conditions.memory / 4);
-    let wanted = |k: Key| !filter || question.wanted(k);
-    let drawn = tally.map(|t| Sample::new(diagram, &question.steps, keys, t, seed, wanted));
-    Box::new(drawn.into_iter().flatten())
+    let (all_steps, steps) = (&question.steps, question.steps.only(kinds));
+    let tally = Tally::<C>::new(diagram, &steps, None, question.conditions.memory / 4);
+    let Some(tally) = tally else {
+        return Box::new(std::iter::empty());
+    };
+    let totals = tally.totals().iter();
+    let totals = totals.filter(|(k, _)| !filter || question.wanted(*k));
+    let totals: Vec<(Key, BigUint)> = totals.map(|(k, c)| (*k, c.big())).collect();
+    let all: BigUint = totals.iter().map(|(_, c)| c).sum();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let draw = move || {
+        if all.is_zero() {
+            return None;
+        }
+        let mut ticket = below(&mut random, &all);
+        let mut key = totals[0].0;
+        for (k, c) in &totals {
+            if ticket < *c {
+                key = *k;
+                break;
+            }
+            ticket -= c;
+        }
+        let mut choices = vec![0; all_steps.keys.len()];
+        let (mut node, mut whole) = (0, 0u128);
+        for (l, layer) in diagram.layers.iter().enumerate() {
+            for choice in 0..layer.choices {
+                let followed = tally.follow(diagram, &steps, (l, node), choice, key);
+                let Some((to, rest, count)) = followed else {
+                    continue;
+                };
+                let size = count.big();
+                if ticket < size {
+                    choices[layer.variable] = choice;
+                    whole += all_steps.keys[layer.variable][choice].0;
+                    (node, key) = (to, rest);
+                    break;
+                }
+                ticket -= size;
+            }
+        }
+        whole += all_steps.redundancy(diagram.terminals[node as usize]).0;
+        Some(Assignment {
+            choices,
+            key: Key(whole),
+        })
+    };
+    Box::new(std::iter::from_fn(draw))
+}
+
+/// A number below `n`, each with the same chance.
+fn below(random: &mut ChaCha8Rng, n: &BigUint) -> BigUint {
+    let bits = n.bits();
+    let mut bytes = vec![0u8; usize::try_from(bits.div_ceil(8)).unwrap_or(0)];
+    loop {
+        random.fill_bytes(&mut bytes);
+        let x = BigUint::from_bytes_le(&bytes) >> (bytes.len() as u64 * 8 - bits);
+        if x < *n {
+            return x;
+        }
+    }
 }

@@ -17,9 +17,9 @@ pub struct Estimate {
     pub standard_error: f64,
     /// The least and the largest number that what was drawn does not contradict, with a confidence of 95 %.
     pub between: [f64; 2],
-    /// An upper bound that is certain, where there is one.
+    /// A certain upper bound, if there is one.
     pub at_most: Option<BigUint>,
-    /// What was drawn.
+    /// The samples.
     pub drawn: Drawn,
     /// The seed of what was drawn.
     pub seed: u64,

@@ -1,8 +1,7 @@
 //! Which freedoms a variant gives to which contours.
 //!
-//! Joints on exactly the same contours are in series as far as closing is concerned, so that most variants are another
-//! way of sharing out the same freedoms among them. The contours of a joint do not depend on the basis: two joints share
-//! all of them exactly when they do in any basis.
+//! Joints on exactly the same contours are in series with respect to closure. So most variants distribute the same freedoms over them in
+//! another way. Which joints share all contours does not depend on the basis of contours.
 
 use crate::closure::contour::contour_basis;
 use crate::geom::vector::{across, cross, real, unit};
@@ -27,7 +26,7 @@ pub struct Added {
     pub times: u8,
 }
 
-/// What is added in words, joints in series after each other: "turn about x, turn about y at a/b/c".
+/// Returns the added freedoms as text, joint by joint: "turn about x, turn about y at a/b/c".
 #[must_use]
 pub fn in_words(m: &Mechanism, added: &[Added]) -> String {
     let groups = added.iter().chunk_by(|a| &a.joints);
@@ -53,11 +52,11 @@ type Item = (Vec<JointId>, String);
 /// The groups of joints in series, and what every choice adds to them.
 #[derive(Debug, PartialEq, Eq)]
 pub(in crate::search) struct Patterns {
-    /// What the numbers of a pattern are about.
+    /// The meaning of each number of a pattern.
     items: Vec<Item>,
     /// `[variable][choice]`.
     pub(in crate::search) of: Vec<Vec<Pattern>>,
-    /// The variable that each becomes in the mechanism's own image; `None` where it is not its own image.
+    /// The image of each variable under the mechanism's own symmetry; `None` if it has none.
     pub(in crate::search) images: Option<Vec<usize>>,
 }
 
@@ -189,8 +188,8 @@ fn direction(d: [f64; 3]) -> String {
     }
 }
 
-/// What an option adds to what is there: freedoms by their directions, or the option itself where its freedoms do not
-/// contain the present ones one by one.
+/// Returns what an option adds to the present joint: freedoms with their directions, or the option itself if it does not contain the
+/// present freedoms one by one.
 fn added(present: &JointOption, option: &JointOption) -> Vec<String> {
     let mut all = freedoms(option);
     for f in freedoms(present) {

@@ -28,7 +28,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Idea {
     /// The one of them that is shown.
     pub first: Assignment,
-    /// What all of them add.
+    /// The freedoms that all of them add.
     pub added: Vec<Added>,
     /// How many there are, those included that the mechanism's own image makes of them.
     pub variants: BigUint,
@@ -36,7 +36,7 @@ pub struct Idea {
     pub symmetric: Option<bool>,
 }
 
-/// Ideas of one cost that are looked at together, to bring them in order.
+/// Maximum number of ideas of one cost that are sorted together.
 const TOGETHER: usize = 512;
 
 /// Joints whose ideas are brought in order: of more joints those of one cost are too many to see all before the first.
@@ -55,7 +55,7 @@ pub(in crate::search) fn idea_variants<'d>(
     }
 }
 
-/// The first ideas among the admissible variants; `top` of them at most. A shorter list is the beginning of a longer one.
+/// Returns the first `top` ideas among the admissible variants. A shorter list is the beginning of a longer one.
 ///
 /// # Complexity
 /// That of the diagram of minimal variants; of the variants up to the last idea's cost only as much of each as differs in its
@@ -215,7 +215,7 @@ pub fn first_of_each<'a>(
         .collect()
 }
 
-/// The first ideas in a list of all variants in order, and how many of the list each stands for; `top` of them at most.
+/// Returns the first `top` ideas in a list of all variants in order, with the number of variants of each.
 ///
 /// # Complexity
 /// O(list · variables · log).

@@ -1,15 +1,12 @@
-//! Variants one by one: in order of cost, or drawn at random with equal chances.
+//! Variants one by one in order of cost.
 //!
-//! Both walk down the diagram guided by the tally, so no step is ever taken back: a step is possible exactly when the
+//! They are found on ways down the diagram that the tally guides, so that no step is ever taken back: a step is possible exactly if the
 //! node it leads to has a completion with the key that is left.
 
-use crate::search::answer::completions::{Span, Ways};
 use crate::search::answer::count::Count;
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::keys::{Key, Steps};
 use crate::search::diagram::{DEAD, Diagram};
-use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use num_traits::Zero;
 use std::fmt;
@@ -26,9 +23,8 @@ pub struct Assignment {
 /// The variants whose key passes a test, cheapest first, then in an order of keys, then by choices in diagram order.
 ///
 /// # Complexity
-/// Some passes over the part of the diagram that variants of that cost use, then O(variables) a variant, and less where many
-/// begin alike: what leads on from a node with some of a key left is looked up in the tables once. Memory is the tables and as
-/// much again, however many are asked for.
+/// Some passes over the part of the diagram that variants of that cost use, then O(variables · choices) look-ups per variant, less if many
+/// variants have the same beginning. Memory is that of the tables, whatever the length of the list.
 pub(crate) struct Cheapest<'d, C> {
     diagram: &'d Diagram,
     steps: &'d Steps,
@@ -44,20 +40,19 @@ pub(crate) struct Cheapest<'d, C> {
     left: usize,
     /// Whether there are none that cost more.
     is_all: bool,
-    pub(in crate::search) ways: Ways,
     enter: Enter<'d>,
 }
 
 /// How far a list goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
-    /// To so many variants.
+    /// Up to a number of variants.
     Variants(usize),
-    /// To all that cost no more than so many steps above the cheapest.
+    /// Up to a cost, in steps above the cheapest.
     Above(u64),
 }
 
-/// What a list is of, before anything is known of the variants.
+/// The extent of a list, given before variants are known.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ListLimits {
     /// How far it goes.
@@ -69,13 +64,12 @@ pub(crate) struct ListLimits {
 /// Given layer, node, the remaining key and the choices so far; says whether to look at what follows.
 pub(crate) type Enter<'d> = Box<dyn FnMut(usize, usize, Key, &[usize]) -> bool + 'd>;
 
-/// A node on the way down, what is left of the key there, its steps, and which of them is the next.
+/// A node on the way down, what is left of the key there, and the choice to be tried next.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     node: u32,
     rest: Key,
-    steps: Span,
-    next: u32,
+    next: usize,
 }
 
 impl<C: Count> fmt::Debug for Cheapest<'_, C> {
@@ -89,8 +83,8 @@ impl<C: Count> fmt::Debug for Cheapest<'_, C> {
 }
 
 impl<'d, C: Count> Cheapest<'d, C> {
-    /// The first variants whose key passes `wanted`, as it does for no cost above the ceiling, in the order of `rank`, which is by
-    /// cost first. Of those that begin alike none is given where `enter` refuses the beginning.
+    /// Returns the first variants whose key passes `wanted`, which it does not above the ceiling. They are in the order of `rank`, which
+    /// sorts by cost first. If `enter` refuses a partial variant, its completions are skipped.
     pub(crate) fn new<R: Ord>(
         diagram: &'d Diagram,
         steps: &'d Steps,
@@ -115,7 +109,6 @@ impl<'d, C: Count> Cheapest<'d, C> {
                 Reach::Above(_) => usize::MAX,
             },
             is_all,
-            ways: Ways::within(bytes),
             enter,
         }
     }
@@ -123,28 +116,6 @@ impl<'d, C: Count> Cheapest<'d, C> {
     /// Whether there are none beyond those given: none that cost more, or none that there is memory for.
     pub(in crate::search) fn is_all(&self) -> bool {
         self.is_all
-    }
-
-    fn steps_from(&mut self, layer: usize, node: u32, rest: Key) -> Span {
-        let (diagram, tally) = (self.diagram, &self.tally);
-        self.ways
-            .from(diagram, self.steps, tally, layer, node, rest)
-    }
-
-    /// Forgets steps where they are too many, but for those on the way.
-    fn make_room(&mut self) {
-        if !self.ways.is_full() {
-            return;
-        }
-        self.ways.clear();
-        for layer in 0..self.path.len() {
-            let Place {
-                node, rest, steps, ..
-            } = self.path[layer];
-            let anew = self.steps_from(layer, node, rest);
-            let place = &mut self.path[layer];
-            (place.steps, place.next) = (anew, anew.0 + (place.next - steps.0));
-        }
     }
 }
 
@@ -163,42 +134,38 @@ impl<C: Count> Iterator for Cheapest<'_, C> {
                 if last == 0 {
                     return self.found();
                 }
-                let (node, rest) = (0, self.key);
-                let steps = self.steps_from(0, node, rest);
                 self.path.push(Place {
-                    node,
-                    rest,
-                    steps,
-                    next: steps.0,
+                    node: 0,
+                    rest: self.key,
+                    next: 0,
                 });
                 continue;
             };
-            if place.next == place.steps.1 {
+            let layer = &self.diagram.layers[depth - 1];
+            let choice = place.next;
+            if choice == layer.choices {
                 self.path.pop();
                 continue;
             }
-            let at = place.next as usize;
             place.next += 1;
-            let step = self.ways.steps[at];
-            self.choices[self.diagram.layers[depth - 1].variable] = step.choice as usize;
-            if !(self.enter)(depth, step.node as usize, step.rest, &self.choices) {
+            let from = (depth - 1, place.node);
+            let (diagram, steps) = (self.diagram, self.steps);
+            let followed = self.tally.follow(diagram, steps, from, choice, place.rest);
+            let Some((node, rest, _)) = followed else {
+                continue;
+            };
+            self.choices[layer.variable] = choice;
+            if !(self.enter)(depth, node as usize, rest, &self.choices) {
                 continue;
             }
             if depth == last {
                 return self.found();
             }
-            let steps = step.then.unwrap_or_else(|| {
-                let then = self.steps_from(depth, step.node, step.rest);
-                self.ways.steps[at].then = Some(then);
-                then
-            });
             self.path.push(Place {
-                node: step.node,
-                rest: step.rest,
-                steps,
-                next: steps.0,
+                node,
+                rest,
+                next: 0,
             });
-            self.make_room();
         }
     }
 }
@@ -256,7 +223,7 @@ fn enough<C: Count>(
     }
 }
 
-/// Least cost by layer and node; `None` where there is no way.
+/// Least cost by layer and node; `None` if there is no path.
 type LeastCosts = Vec<Vec<Option<u64>>>;
 
 /// Least costs of the ways to each node.
@@ -297,107 +264,4 @@ pub fn least_from(diagram: &Diagram, steps: &Steps) -> LeastCosts {
     out.push(below);
     out.reverse();
     out
-}
-
-/// Variants whose key passes a test, drawn without end, independently, each with the same chance.
-#[derive(Debug)]
-pub(crate) struct Sample<'d, C> {
-    diagram: &'d Diagram,
-    steps: &'d Steps,
-    /// The steps the tally was made with; the variants' own keys are made from `steps`.
-    told: Steps,
-    tally: Tally<C>,
-    /// What there is to draw from, by key, and how much in all.
-    totals: Vec<(Key, BigUint)>,
-    all: BigUint,
-    random: ChaCha8Rng,
-}
-
-impl<'d, C: Count> Sample<'d, C> {
-    /// Makes ready to draw; `told` must be the steps that the table of counts was made with.
-    pub(crate) fn new(
-        diagram: &'d Diagram,
-        steps: &'d Steps,
-        told: Steps,
-        tally: Tally<C>,
-        seed: u64,
-        wanted: impl Fn(Key) -> bool,
-    ) -> Self {
-        let counts = tally.totals().iter().filter(|(k, _)| wanted(*k));
-        let totals: Vec<(Key, BigUint)> = counts.map(|(k, c)| (*k, c.big())).collect();
-        let all = totals.iter().map(|(_, c)| c).sum();
-        let random = ChaCha8Rng::seed_from_u64(seed);
-        Sample {
-            diagram,
-            steps,
-            told,
-            tally,
-            totals,
-            all,
-            random,
-        }
-    }
-}
-
-impl<C: Count> Iterator for Sample<'_, C> {
-    type Item = Assignment;
-
-    fn next(&mut self) -> Option<Assignment> {
-        if self.all.is_zero() {
-            return None;
-        }
-        let (diagram, steps) = (self.diagram, self.steps);
-        let mut ticket = below(&mut self.random, &self.all);
-        let mut key = self.totals[0].0;
-        for (k, c) in &self.totals {
-            if ticket < *c {
-                key = *k;
-                break;
-            }
-            ticket -= c;
-        }
-        let mut choices = vec![0; steps.keys.len()];
-        let (mut node, mut whole) = (0usize, 0u128);
-        for (l, layer) in diagram.layers.iter().enumerate() {
-            for (choice, edge) in self.told.keys[layer.variable].iter().enumerate() {
-                let to = layer.edges[node * layer.choices + choice];
-                let Some(rest) = key.0.checked_sub(edge.0).map(Key) else {
-                    continue;
-                };
-                if to == DEAD {
-                    continue;
-                }
-                let table = &self.tally.tables[l + 1][to as usize];
-                let Ok(i) = table.binary_search_by_key(&rest, |(k, _)| *k) else {
-                    continue;
-                };
-                let size = table[i].1.big();
-                if ticket < size {
-                    choices[layer.variable] = choice;
-                    whole += steps.keys[layer.variable][choice].0;
-                    (node, key) = (to as usize, rest);
-                    break;
-                }
-                ticket -= size;
-            }
-        }
-        whole += steps.redundancy(diagram.terminals[node]).0;
-        Some(Assignment {
-            choices,
-            key: Key(whole),
-        })
-    }
-}
-
-/// A number below `n`, each with the same chance.
-fn below(random: &mut ChaCha8Rng, n: &BigUint) -> BigUint {
-    let bits = n.bits();
-    let mut bytes = vec![0u8; usize::try_from(bits.div_ceil(8)).unwrap_or(0)];
-    loop {
-        random.fill_bytes(&mut bytes);
-        let x = BigUint::from_bytes_le(&bytes) >> (bytes.len() as u64 * 8 - bits);
-        if x < *n {
-            return x;
-        }
-    }
 }

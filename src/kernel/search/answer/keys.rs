@@ -59,7 +59,7 @@ impl Key {
     pub fn internal(self) -> u32 {
         u32::from(self.part(32))
     }
-    /// Redundant constraints that the state adds; fewer than none where it leaves joints out.
+    /// Redundant constraints that the state adds; negative if it removes joints.
     #[must_use]
     pub fn external(self) -> i32 {
         i32::from(self.part(16).cast_signed())
@@ -151,8 +151,8 @@ impl Steps {
         }
     }
 
-    /// The same with weights of changed variables after the cost: of equal cost those with less weight are cheaper. Costs are
-    /// then in a unit of their own.
+    /// Returns steps with the weights of changed variables after the cost: among equal costs, less weight is cheaper. Costs then have their
+    /// own unit.
     #[must_use]
     pub(in crate::search) fn then(&self, weights: &[u64]) -> Steps {
         let many = weights.iter().sum::<u64>() + 1;

@@ -1,9 +1,8 @@
 //! Variants that do with the least: no other admissible one has part of their freedoms and all of their other choices.
 //!
-//! Along the way of a variant through its diagram those nodes are kept that variants with less have come to by then. It is
-//! minimal where none of them leads to an end by what remains of its choices, or by less. Where constraints of a searched state
-//! play no part, freedoms that are added never make a constraint redundant and those left out never let a link move, so that a
-//! variant with less at several joints has others between it and this one: it is enough to look at less at one joint.
+//! A path through the diagram keeps the nodes that variants with less have reached. A variant is minimal if none of these nodes leads to an
+//! end by its other choices or by less. Without the constraints of a searched state, added freedoms never make a constraint redundant, and
+//! removed ones never let a link move. Then variants with less at several joints have others in between, and less at one joint is enough.
 //!
 //! # Sources
 //! Minimal elements of a family of sets on a decision diagram: Coudert, "Two-level logic minimization: an overview",
@@ -21,21 +20,20 @@ use hashbrown::HashMap;
 use hashbrown::hash_map::Entry;
 use num_bigint::BigUint;
 
-/// What another variant must not have more of, to make one with more freedoms idle.
+/// The criterion by which another variant has less, so that this one has idle freedoms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Less {
-    /// Freedoms alone: what is minimal then has none that can be left out.
+    /// Freedoms only: no freedom of a minimal variant can be removed.
     Freedoms,
-    /// Freedoms, at joints that are no dearer and no more of them changed: a ball may stand where a universal joint would do,
-    /// and is dearer.
+    /// Freedoms, at joints that do not cost more, with no more changes: a ball may replace a universal joint, but costs more.
     Means,
 }
 
-/// Nodes of a diagram of minimal variants at most.
+/// Maximum number of nodes of a diagram of minimal variants.
 const MOST: usize = 1 << 18;
 
-/// How many admissible variants have no other among them with part of their freedoms; `None` where that was not counted: what
-/// is admissible is not all known, orbits are asked about, or it takes too many nodes.
+/// Returns the number of admissible variants for which no other has a part of their freedoms. Returns `None` if not all admissible variants
+/// are known, if orbits are counted, or if it takes too many nodes.
 ///
 /// # Complexity
 /// O(nodes of the diagram of minimal variants · choices²).
@@ -74,7 +72,7 @@ pub(in crate::search) struct Order {
 }
 
 impl Order {
-    /// Of the choices of a question.
+    /// Returns the order of the choices of a question.
     pub(in crate::search) fn new(question: &Question, less: Less) -> Order {
         let within = |v: &Variable| -> Vec<Vec<(usize, bool)>> {
             let spans = v
@@ -125,7 +123,7 @@ fn spans(question: &Question, choice: &Choice) -> Vec<Echelon> {
     choice.spans.iter().map(span).collect()
 }
 
-/// A node that a variant has come to, beside others.
+/// A node that a variant has reached, with others.
 #[derive(Clone, PartialEq, Eq, Hash)]
 struct Arrived {
     node: u32,
@@ -185,7 +183,7 @@ fn least(question: &Question, diagram: &Diagram, order: &Order) -> Option<Diagra
     Some(minimal(layers, ends.collect::<Option<_>>()?))
 }
 
-/// Where a choice leads from a state; nowhere where a variant with less gets as far.
+/// Returns the state after a choice; `None` if a variant with less gets as far.
 fn carried(
     layer: &Layer,
     order: &Order,

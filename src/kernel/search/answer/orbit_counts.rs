@@ -9,7 +9,7 @@ use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 /// Counts of orbits from counts of all variants, by a search for the symmetric ones, and why that search ended.
 ///
 /// # Errors
-/// As [`Question::new`].
+/// Returns an error in the same cases as [`Question::new`].
 pub fn orbit_counts(
     question: &Question,
     all: SearchCounts,

@@ -3,8 +3,7 @@
 use crate::search::answer::count_tables::Tally;
 use crate::search::answer::counts::fits;
 use crate::search::answer::k_best::Assignment;
-use crate::search::answer::keys::Key;
-use crate::search::diagram::{DEAD, Diagram};
+use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 
 /// What tells places in the order of cost of a diagram's variants.
@@ -16,7 +15,7 @@ pub struct Places<'d> {
 }
 
 impl<'d> Places<'d> {
-    /// Of a diagram; `None` where its tables take more than some bytes, or its variants are too many to number.
+    /// Prepares a diagram. Returns `None` if its tables take more than `bytes`, or if its variants are too many to number.
     ///
     /// # Complexity
     /// O(edges · kinds of completions).
@@ -42,22 +41,19 @@ impl<'d> Places<'d> {
             earlier.filter(|(k, _)| self.question.wanted(*k) && self.question.rank(*k) < own);
         let mut place = 1 + earlier.map(|(_, n)| n).sum::<u128>();
         let (mut node, mut rest) = (0, v.key);
+        let steps = &self.question.steps;
         for (l, layer) in self.diagram.layers.iter().enumerate() {
-            let chosen = v.choices[layer.variable];
-            for (choice, key) in self.question.steps.keys[layer.variable].iter().enumerate() {
-                let to = layer.edges[node * layer.choices + choice];
-                let left = rest.0.checked_sub(key.0).map(Key);
-                let (Some(left), true) = (left, to != DEAD) else {
+            for choice in 0..layer.choices {
+                let from = (l, node);
+                let followed = self.tally.follow(self.diagram, steps, from, choice, rest);
+                let Some((to, left, count)) = followed else {
                     continue;
                 };
-                if choice == chosen {
-                    (node, rest) = (to as usize, left);
+                if choice == v.choices[layer.variable] {
+                    (node, rest) = (to, left);
                     break;
                 }
-                let table = &self.tally.tables[l + 1][to as usize];
-                if let Ok(at) = table.binary_search_by_key(&left, |(k, _)| *k) {
-                    place += table[at].1;
-                }
+                place += count;
             }
         }
         place

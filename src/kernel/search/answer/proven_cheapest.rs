@@ -1,7 +1,7 @@
 //! The cheapest variants, proven to be, of a diagram too large to build.
 //!
-//! A diagram under a ceiling of cost has every variant within it, and is small where the ceiling is low: what costs too much
-//! already, with the least that it still needs, is left out. The ceiling is raised until enough variants are under it.
+//! A diagram under a cost ceiling has every variant within it. It is small if the ceiling is low: nodes are removed if their cost and the
+//! least cost of their completion exceed it. The ceiling is raised until it allows enough variants.
 //!
 //! # Sources
 //! Ceilings raised until there is an answer: Korf, "Depth-first iterative-deepening", Artificial Intelligence 27 (1985);
@@ -24,7 +24,7 @@ pub struct UpTo {
     pub cost_milli: i64,
 }
 
-/// What was proven, and why no more.
+/// The proven part, and the reason why there is no more.
 pub(in crate::search) struct Proof {
     pub(in crate::search) up_to: Option<UpTo>,
     pub(in crate::search) stop: Stop,
@@ -76,8 +76,8 @@ pub(in crate::search) fn up_to(
     }
 }
 
-/// The cost in thousandths up to which a diagram has so many variants; the inner `None` where it has not as many, the
-/// outer one where memory does not suffice to say.
+/// Returns the cost in thousandths up to which a diagram has at least `most` variants. The inner `None` means that it has fewer, the outer
+/// one that memory does not suffice.
 pub(in crate::search) fn cost_of(
     question: &Question,
     diagram: &Diagram,

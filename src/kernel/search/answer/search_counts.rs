@@ -1,11 +1,11 @@
-//! What a search counts: determinate variants, admissible ones, and those that keep the motion throughout.
+//! The counts of a search: determinate variants, admissible ones, and those that keep the motion throughout.
 
 use crate::search::answer::counts::{Counts, counts, sums};
 use crate::search::build::Diagrams;
 use crate::search::diagram::Diagram;
 use crate::search::question::Question;
 
-/// What a search counts.
+/// The counts of a search.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SearchCounts {
     /// Variants without more redundant constraints than are allowed.

@@ -1,9 +1,9 @@
 //! Single changes: how many redundant constraints each removes alone, before any search.
 //!
-//! A change appends columns to J, the freedoms it adds. Its gain is their rank modulo the image of J, and W grows by the
-//! number of new columns less the gain. So a change whose gain is the number of its columns removes that many redundant
-//! constraints, lets nothing loose, and leaves every motion as it was. The gain is read off the self-stresses: it is the
-//! rank of the powers of the wrenches that the joint carries on the new freedoms, a matrix of six rows at most.
+//! A change appends columns to J for the freedoms it adds. Its gain is their rank modulo the image of J, and W grows by the number of new
+//! columns less the gain. If the gain is the number of its columns, the change removes that many redundant constraints and alters no
+//! motion. The gain follows from the self-stresses. It is the rank of the power of the wrenches in the joint on the new freedoms, a matrix
+//! of at most six rows.
 
 use crate::closure::Closure;
 use crate::closure::twist::{MotionSpace, joint_twists};
@@ -17,7 +17,7 @@ use crate::redundancy::stress::stress_basis;
 use crate::search::question::cost::CostTable;
 use std::cmp::Reverse;
 
-/// What is tried where the file offers nothing: at the mechanism's own joints.
+/// Joint types that are tried in place of the mechanism's joints if the file offers nothing.
 pub const USUAL: [JointType; 5] = [
     JointType::Cylindrical,
     JointType::Universal,
@@ -33,7 +33,7 @@ pub const USUAL_UNLOADING: JointType = JointType::Spherical;
 pub struct Suggestion {
     /// The joint.
     pub joint: JointId,
-    /// What is put in its place, where it does not stay.
+    /// The new joint, if the present one is replaced.
     pub to: Option<JointOption>,
     /// The unloading joint inserted in series, where one is.
     pub unloading: Option<JointOption>,
@@ -67,7 +67,7 @@ pub struct Suggestions {
 /// One elimination of J, and for each change an elimination of six by six numbers.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestions, ExactError> {
     let exact = &exact_field(mechanism, 0)?;
     let motion = MotionSpace::new(exact, &mechanism.mode)?;
@@ -128,7 +128,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
     })
 }
 
-/// The joint as it is.
+/// Returns the present joint as an option.
 fn present(joint: &Joint) -> JointOption {
     let own = || JointOption::in_frame_of(joint, &joint.joint_type);
     joint.options.first().cloned().unwrap_or_else(own)
@@ -136,7 +136,7 @@ fn present(joint: &Joint) -> JointOption {
 
 type Change = (Option<JointOption>, Option<JointOption>);
 
-/// What may be done at a joint: another in its place, an unloading joint, or both.
+/// Returns the possible changes of a joint: another joint, an unloading joint, or both.
 fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) -> Vec<Change> {
     if usual {
         let option = |t: &JointType| JointOption::in_frame_of(joint, t);
@@ -183,7 +183,7 @@ fn gain(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) 
     span.rank()
 }
 
-/// What each joint carries under the self-stresses.
+/// The wrenches that each joint transmits under the self-stresses.
 struct Carried<'a> {
     exact: &'a ExactField,
     stresses: &'a [Vec<Residue>],

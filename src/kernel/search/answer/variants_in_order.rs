@@ -16,8 +16,7 @@ fn every<'a>() -> Enter<'a> {
     Box::new(|_, _, _, _| true)
 }
 
-/// The admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables;
-/// `top` of them at most.
+/// Returns at most `top` admissible variants, cheapest first, then by W, then by changes, then in the order of the diagram's variables.
 pub(crate) fn cheapest<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,
@@ -108,6 +107,28 @@ fn between<'a>(
     in_steps(question, diagram, &question.steps, limits, wanted, enter).0
 }
 
+/// Returns at least `top` variants of a diagram in order of cost, without conditions on their keys. Returns none if memory does not
+/// suffice.
+pub(in crate::search) fn every_choice<'a>(
+    question: &'a Question,
+    diagram: &'a Diagram,
+    top: usize,
+) -> Box<dyn Iterator<Item = Assignment> + 'a> {
+    let limits = ListLimits {
+        reach: Reach::Variants(top),
+        ceiling: u64::MAX,
+    };
+    in_steps(
+        question,
+        diagram,
+        &question.steps,
+        limits,
+        |_| true,
+        every(),
+    )
+    .0
+}
+
 /// The variants of a diagram whose keys pass a test, in the order of some steps, and whether there are none beyond.
 fn in_steps<'a>(
     question: &'a Question,
@@ -138,8 +159,8 @@ pub(in crate::search) fn key(question: &Question, diagram: &Diagram, choices: &[
     Key(sum + question.steps.redundancy(end).0)
 }
 
-/// Draws admissible variants, or orbits, without end, each with the same chance; none where what it takes to draw is more than the
-/// memory there is.
+/// Returns an endless sample of admissible variants or orbits, each with the same probability. The sample is empty if it takes more than
+/// the available memory.
 pub(crate) fn sample<'a>(
     question: &'a Question,
     diagrams: &'a Diagrams,

@@ -1,4 +1,4 @@
-//! Where a question has no answer: which of its conditions, eased alone, would leave some variants.
+//! If a question has no answer: the conditions that would leave some variants if one of them were eased.
 
 use crate::closure::Closure;
 use crate::geom::exact::ExactError;
@@ -30,7 +30,7 @@ pub enum Relaxation {
     Harmful(u32),
     /// Outputs that move in other ways than now.
     OutputChange,
-    /// Drives that may let go.
+    /// Drives that may move without the outputs.
     FreeDrives,
     /// Objects that are not held.
     LooseObject,
@@ -38,27 +38,26 @@ pub enum Relaxation {
     PoseOnly,
 }
 
-/// Why nothing can be found, whatever is chosen.
+/// Reasons why nothing can be found, whatever is chosen.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Hopeless {
-    /// Redundant constraints left within the mechanism with every joint at the freest of its options, where that is more
-    /// than allowed.
+    /// Redundant constraints that remain if every joint has all freedoms of its options, if these are more than allowed.
     pub least_redundant: Option<usize>,
     /// Joints that have no choice, and of which a freer one would remove some of these.
     pub unchanged: Vec<JointId>,
-    /// Driven joints that nothing moves in the mechanism as it is.
+    /// Driven joints that do not move in the present mechanism.
     pub frozen: Vec<JointId>,
 }
 
-/// Nodes of a diagram at most, where the question took fewer: easing should cost little more than the question did.
+/// Maximum number of nodes of a diagram if the question took fewer: easing should cost little more than the question did.
 const NODES: usize = 20_000;
 /// How many times the question's nodes, where those are more.
 const MORE: usize = 4;
 
-/// What stands in the way of every variant.
+/// Returns the reasons why no variant can be found.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub fn hopeless(question: &Question) -> Result<Hopeless, ExactError> {
     let m = &*question.mechanism;
     let (least, unchanged) = Matrices::new(question).freest();
@@ -82,7 +81,7 @@ pub fn hopeless(question: &Question) -> Result<Hopeless, ExactError> {
 /// nodes is passed over. `nodes` are those that the question took.
 ///
 /// # Errors
-/// As [`Question::new`].
+/// Returns an error in the same cases as [`Question::new`].
 ///
 /// # Complexity
 /// One search for each condition, and for redundancies one for each bit of the least that is enough, or two.
@@ -133,13 +132,13 @@ pub fn relaxations(
 /// A question that is asked again with conditions eased.
 struct Easing<'a> {
     question: &'a Question,
-    /// Nodes of a diagram at most.
+    /// Maximum number of nodes of a diagram.
     nodes: usize,
     cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Easing<'_> {
-    /// The counts under other conditions; none where it takes too many nodes.
+    /// Returns the counts under other conditions; `None` if it takes too many nodes.
     fn counted(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
         let question = self.question;
         let mut eased = question.conditions.clone();
@@ -152,7 +151,7 @@ impl Easing<'_> {
         Ok(whole.then(|| counts(&other, built.listed(), true)))
     }
 
-    /// The same; none where there is no variant, either.
+    /// Returns the counts under other conditions; `None` if it takes too many nodes or if there are no variants.
     fn some(&self, change: &dyn Fn(&mut Conditions)) -> Result<Option<Counts>, SearchError> {
         Ok(self.counted(change)?.filter(|c| !c.total.is_zero()))
     }
@@ -180,8 +179,7 @@ impl Easing<'_> {
         Ok(None)
     }
 
-    /// The least bound of the searched state that is enough, with how many variants it leaves: what is allowed is doubled, and then
-    /// the gap halved.
+    /// Returns the least sufficient bound of the searched state, with the number of variants. The bound is doubled, then the gap is halved.
     fn least(
         &self,
         allowed: u32,

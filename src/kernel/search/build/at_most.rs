@@ -1,7 +1,7 @@
 //! A diagram that has every variant, and some that are none, in as few nodes as are wanted: its count is an upper bound.
 //!
-//! Layers with too many nodes keep those that most ways lead to; the others are put together, those that reach as many dimensions
-//! in the contours to come first ([`Between`]).
+//! Layers with too many nodes keep those with most paths. The others are merged, those first that reach as many dimensions in the later
+//! contours ([`Between`]).
 
 use crate::linalg::echelon::Echelon;
 use crate::linalg::modp::Field;
@@ -36,8 +36,8 @@ fn width(limits: &Limits, stages: &[Adding], choices: usize) -> usize {
     (limits.nodes / 100).clamp(64, 4096).min(bytes).max(1)
 }
 
-/// The diagram of a question without a searched state, for the variables in an order; none where redundant constraints are allowed,
-/// or where it is cancelled.
+/// Returns the diagram of a question without a searched state, for the variables in an order. Returns `None` if redundant constraints are
+/// allowed, or if cancelled.
 ///
 /// # Complexity
 /// O(layers · width · choices · s³) field operations for s present self-stresses.
@@ -50,7 +50,7 @@ pub(in crate::search) fn at_most(
 ) -> Option<AtMost> {
     let field = question.exact.field();
     let space = space(question, order, wanted);
-    let spent = Spent::within_mechanism(limits.already.saturating_add(space.lasting));
+    let spent = Spent::within_mechanism(space.lasting);
     if spent.internal() != limits.internal {
         return None;
     }
@@ -116,13 +116,13 @@ fn bounds(stages: &[Adding], contours: &[Lifetime]) -> Vec<Vec<usize>> {
     stages.iter().enumerate().map(of_stage).collect()
 }
 
-/// A child with the numbers that tell it from others; none where it has no future.
+/// A child with the numbers that identify it; `None` if it has no completion.
 type Named = Option<(Vec<u64>, Between)>;
 
 /// Nodes, and how many ways lead to each.
 type Weighed = Vec<(Between, f64)>;
 
-/// What nodes are carried over.
+/// The context in which nodes get their children.
 struct Layered<'a> {
     field: Field,
     spent: &'a Spent,
@@ -196,7 +196,7 @@ impl Layered<'_> {
     }
 }
 
-/// No more than so many nodes, and which of them each became.
+/// Returns at most `width` nodes, and the new number of each node.
 fn narrowed(field: Field, nodes: Weighed, width: usize) -> (Weighed, Vec<u32>) {
     if nodes.len() <= width {
         let same = (0..nodes.len()).map(|i| u32::try_from(i).expect("layers are narrow"));

@@ -12,7 +12,7 @@ pub(in crate::search) fn has(set: &Set, node: usize) -> bool {
     set[node / 64] >> (node % 64) & 1 == 1
 }
 
-/// The set of no node of so many.
+/// Returns an empty set of nodes.
 pub(in crate::search) fn none(nodes: usize) -> Set {
     vec![0; nodes.div_ceil(64)].into_boxed_slice()
 }
@@ -22,7 +22,7 @@ pub(in crate::search) fn put(set: &mut Set, node: usize) {
     set[node / 64] |= 1 << (node % 64);
 }
 
-/// A set of some of so many nodes.
+/// Returns the set of the nodes that pass a test.
 pub(in crate::search) fn set(nodes: usize, mut is_in: impl FnMut(usize) -> bool) -> Set {
     let mut out = none(nodes);
     (0..nodes)
@@ -60,22 +60,20 @@ impl Numbered {
     }
 }
 
-/// Nodes looked at before it is asked whether all is cancelled, and told how many are done.
+/// Number of nodes between two checks for cancellation.
 const BATCH: usize = 512;
 
-/// For each of so many nodes, which nodes of the other half complete it; none where it is cancelled.
+/// Returns for each node the set of nodes of the other half that complete it; `None` if cancelled.
 pub(in crate::search) fn completed(
     nodes: usize,
     completing: impl Fn(usize) -> Set + Sync,
     cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize),
 ) -> Option<Vec<Set>> {
     let mut sets = Vec::with_capacity(nodes);
     for start in (0..nodes).step_by(BATCH) {
         if cancelled() {
             return None;
         }
-        told(start);
         let batch = start..(start + BATCH).min(nodes);
         sets.par_extend(batch.into_par_iter().map(&completing));
     }

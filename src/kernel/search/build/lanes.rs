@@ -42,7 +42,7 @@ pub(in crate::search) fn in_self_stress_space(
     if !root.within(limits) {
         return nothing(question, order);
     }
-    let space = &wanted.model(question).space;
+    let space = &question.space;
     let built = diagram::build(space, &stages, limits, root, None, cancelled, progress);
     let stop = built.stop;
     let smallest = minimal(built.layers, built.terminals);
@@ -86,7 +86,7 @@ impl<'a> Lanes<'a> {
             .filter(|_| wanted != Wanted::Determinate);
         let more = state.map_or_else(Vec::new, |s| of_state(question, order, s));
         let roles: Vec<Role> = more.iter().map(|lane| lane.role).collect();
-        let mut root = Spent::within_mechanism(limits.already.saturating_add(free.space.lasting));
+        let mut root = Spent::within_mechanism(free.space.lasting);
         let contours = u32::try_from(free.space.contours.len()).unwrap_or(u32::MAX);
         // All lanes of the state have the original common joints, with these redundant constraints.
         let of_free = if limits.beside_free {
@@ -245,11 +245,11 @@ impl StateRows<'_> {
     fn lane(&self, order: &[usize], paths: Vec<Vec<(JointId, bool)>>) -> Lane {
         let Question {
             mechanism,
-            model,
+            space,
             exact,
             ..
         } = self.question;
-        let (field, space) = (exact.field(), &model.space);
+        let field = exact.field();
         let rows = ClosingRows::in_state(mechanism, space.dim, self.state, self.contours, paths);
         let of_variable = |variable: &Variable| -> Vec<Option<Vec<Vec<Residue>>>> {
             let choices = variable.choices.iter();

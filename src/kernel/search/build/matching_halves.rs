@@ -38,10 +38,20 @@ pub(super) struct Grouped {
 }
 
 impl Grouped {
-    /// Takes the next node, by its rows in reduced form, with the motion of kept links as the last number. One that moves these and closes
-    /// every contour is completed by none.
-    pub(super) fn take(&mut self, node: usize, mut rows: Vec<Vec<Residue>>) {
-        self.nodes += 1;
+    /// Groups nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves these and
+    /// closes every contour is completed by none.
+    pub(super) fn of(nodes: &[Vec<Vec<Residue>>]) -> Grouped {
+        let mut grouped = Grouped {
+            nodes: nodes.len(),
+            ..Grouped::default()
+        };
+        for (node, rows) in nodes.iter().enumerate() {
+            grouped.take(node, rows.clone());
+        }
+        grouped
+    }
+
+    fn take(&mut self, node: usize, mut rows: Vec<Vec<Residue>>) {
         let moved: Vec<Residue> = rows.iter_mut().filter_map(Vec::pop).collect();
         let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
         let Some(pivots) = rows.iter().map(pivot).collect() else {
@@ -66,7 +76,7 @@ pub(super) fn lookups(front: &Grouped, back: &Grouped) -> usize {
 }
 
 /// Returns for each node of the front the set of nodes of the back that complete it; `None` if the sets take more than the given bytes, or
-/// if cancelled. `told` receives the number of nodes done.
+/// if cancelled.
 ///
 /// # Complexity
 /// O(a·b·w³ + (n·b + m·a)·w) field operations for n nodes of the front in a groups, m of the back in b, and w coordinates.
@@ -76,23 +86,19 @@ pub(super) fn matched(
     [front, back]: &[Grouped; 2],
     bytes: usize,
     cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize),
 ) -> Option<(Vec<u32>, Vec<Set>)> {
     let mut of_node = vec![DEAD; front.nodes];
     let mut numbered = Numbered::default();
-    let mut done = 0;
     for some in front.groups.chunks(BATCH) {
         if cancelled() {
             return None;
         }
-        told(done);
         let completed = |group| completed(field, width, group, back);
         let found: Vec<Completed> = some.par_iter().map(completed).collect();
         for (set, nodes) in found.into_iter().flatten() {
             let number = numbered.of(set);
             nodes.iter().for_each(|&node| of_node[node] = number);
         }
-        done += some.iter().map(|group| group.nodes.len()).sum::<usize>();
         if numbered.all.len() * back.nodes / 8 > bytes {
             return None;
         }

@@ -1,6 +1,7 @@
 //! The orders in which both diagrams take the variables.
 
 use crate::closure::contour::contour_basis;
+use crate::linalg::echelon::Echelon;
 use crate::search::order::variable_order;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
@@ -19,7 +20,9 @@ pub struct Orders {
 /// Returns the orders of both diagrams. They do not depend on the prime, and a twin over another prime may be given them.
 #[must_use]
 pub(crate) fn orders(question: &Question) -> Orders {
-    let nothing_is_built = is_none_possible(question);
+    let (mechanism, dim) = (&question.mechanism, question.space.dim);
+    let free = |kept| ClosingRows::free(mechanism, dim, &question.contours, kept);
+    let nothing_is_built = is_none_possible(question, &free(None));
     let order = |blocks: &[Block], rows: &ClosingRows<'_>, later: &[usize]| -> Vec<usize> {
         if nothing_is_built {
             return blocks.iter().flat_map(|b| b.variables.clone()).collect();
@@ -31,8 +34,6 @@ pub(crate) fn orders(question: &Question) -> Orders {
         let all = 0..variables.len();
         all.filter(|&v| wanted(&variables[v])).collect()
     };
-    let (mechanism, dim) = (&question.mechanism, question.model.space.dim);
-    let free = |kept| ClosingRows::free(mechanism, dim, &question.contours, kept);
     let [blocks, common] = &question.blocks;
     let external = those(|v| v.external);
     let mut determinate = order(blocks, &free(None), &[]);
@@ -61,9 +62,15 @@ pub(crate) fn orders(question: &Question) -> Orders {
     }
 }
 
-/// Whether every variant has more redundant constraints than are allowed, in rows that no choice changes.
-pub(in crate::search) fn is_none_possible(question: &Question) -> bool {
-    question.model.already > question.conditions.max_redundant
+/// Returns whether every variant has more redundant constraints than are allowed, since all choices together leave as many.
+fn is_none_possible(question: &Question, rows: &ClosingRows<'_>) -> bool {
+    let free = question.space.variables.iter().filter(|v| !v.external);
+    let columns = free.flat_map(|v| {
+        let choices = 0..v.choices.len();
+        choices.flat_map(|c| rows.columns(question.exact.field(), v, c))
+    });
+    let rank = Echelon::of(question.exact.field(), columns).rank();
+    rows.closing() - rank > question.conditions.max_redundant as usize
 }
 
 /// Whether nothing is asked of variants but what makes them determinate.

@@ -1,4 +1,4 @@
-//! Diagrams built in the space dual to the self-stresses of the present joints.
+//! Diagrams in the space dual to the self-stresses of the present joints.
 //!
 //! A node is what the choices so far add there, within what the rest can still reach: the rest must reach all that is missing, or
 //! the node is dead. That space is smaller than the motions of all links, and nodes that differ in what a present joint to
@@ -7,13 +7,12 @@
 use crate::linalg::modp::{Field, Residue};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Limits, Spent};
-use crate::search::diagram::stage::{Adding, Columns, Grown};
+use crate::search::diagram::stage::{Adding, Columns};
 use crate::search::diagram::transition::{Children, Worker};
 use crate::search::diagram::{Carries, DEAD, Diagram, Layer};
 use crate::search::question::Question;
 use crate::search::question::throughout::ORDER;
 use crate::search::reduce::lifetimes::Lifetime;
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::{ClosingRows, SelfStressSpace};
 
 /// Which variants a diagram has.
@@ -27,22 +26,11 @@ pub(in crate::search) enum Wanted {
     Lasting,
 }
 
-impl Wanted {
-    /// Returns the rows that their diagram is built of.
-    pub(in crate::search) fn model(self, question: &Question) -> &Model {
-        match &question.throughout {
-            Ok(along) if self == Wanted::Lasting => &along.model,
-            _ => &question.model,
-        }
-    }
-}
-
 /// Returns the limits of the diagrams of a question.
 pub(in crate::search) fn limits(question: &Question) -> Limits {
     let state = question.conditions.state;
     Limits {
         layer: usize::MAX,
-        already: question.model.already,
         internal: question.conditions.max_redundant,
         external: state.and_then(|s| s.max_external),
         harmful: state.and_then(|s| s.max_harmful),
@@ -62,7 +50,7 @@ pub(in crate::search) fn space(
     let keeps = wanted != Wanted::Determinate && question.conditions.keep_output;
     let kept = keeps.then_some(&question.kept);
     let field = question.exact.field();
-    let (mechanism, space) = (&question.mechanism, &wanted.model(question).space);
+    let (mechanism, space) = (&question.mechanism, &question.space);
     let rows = ClosingRows::free(mechanism, space.dim, &question.contours, kept);
     let (times, of_choice): (usize, &dyn Fn(usize, usize) -> Vec<Vec<Residue>>) =
         match &question.throughout {
@@ -84,31 +72,9 @@ pub(in crate::search) fn space(
     SelfStressSpace::new(field, &rows, times, space, order, &present, of_choice)
 }
 
-/// A stage of all that the kept links do.
-pub(in crate::search) struct Added {
-    field: Field,
-    stage: Adding,
-}
-
-impl Added {
-    pub(in crate::search) fn new(field: Field, stage: Adding) -> Self {
-        Added { field, stage }
-    }
-
-    /// What its choices add, one grown from another.
-    pub(in crate::search) fn growth(&self) -> &[Grown] {
-        &self.stage.columns.growth
-    }
-
-    /// The coordinates of contours in use.
-    pub(in crate::search) fn contours(&self) -> &[usize] {
-        &self.stage.contours
-    }
-}
-
-impl Carries for Added {
+impl Carries for Adding {
     fn variable(&self) -> usize {
-        self.stage.variable
+        self.variable
     }
 
     fn worker(&self) -> Worker {
@@ -116,11 +82,11 @@ impl Carries for Added {
     }
 
     fn effort(&self, bytes: usize) -> usize {
-        bytes / size_of::<Residue>() * self.stage.columns.width
+        bytes / size_of::<Residue>() * self.columns.width
     }
 
     fn children(&self, worker: &mut Worker, matrix: &[Residue], spent: &Spent, out: &mut Children) {
-        worker.flat_children(&self.stage, matrix, spent, out);
+        worker.flat_children(self, matrix, spent, out);
     }
 }
 
@@ -144,6 +110,7 @@ pub(in crate::search) fn adding(
         let contours = coordinates.iter().copied();
         let added = &space.added[t];
         Adding {
+            field,
             variable,
             contours: contours.filter(|&c| c < space.contours.len()).collect(),
             columns: Columns::new(field, &lifetimes, t, &coordinates, closing, added),

@@ -1,41 +1,36 @@
 //! Diagrams built from both ends, where equal motion spaces are too many.
 //!
-//! Nodes with the same futures may differ in what they add to the present joints, and in coupled contours most do. Here one half of
-//! the variables is taken from the front and the other from the back, until they meet; which nodes of the one complete which of
-//! the other is [looked up](super::matching_halves), or tested for every pair. What a node of the front is completed by says all of its
-//! future, so those with the same set are one, as are those of the back that complete the same. The sets lead on: a variable's choice turns
-//! the set of completions by what is left, read off the edges of the half that came from the back. The outcome is the smallest diagram there
-//! is, and exact.
+//! Nodes with the same completions may add different vectors to the present joints. In coupled contours most do. Here one half of the
+//! variables is taken from the front and the other half from the back, until they meet. The pairs of nodes that complete each other are
+//! [looked up](super::matching_halves) or tested. Nodes of the front with the same set of completing nodes are one node, and so are nodes
+//! of the back that complete the same nodes. From there on, each choice maps such a set to a set of the next layer, read from the edges of
+//! the back half. The result is the smallest diagram, and exact.
 //!
 //! # Sources
 //! An automaton reversed, made deterministic, and that once more, is minimal: Brzozowski, "Canonical regular expressions and
 //! minimal state graphs for definite events" (1962).
 
 use crate::search::build::completing_sets::{Numbered, Set, has, nodes, none, put, set};
-use crate::search::build::self_stress::Added;
 use crate::search::build::spanning_halves::{Halves, Meeting};
 use crate::search::diagram::layer::{Merge, Nodes};
 use crate::search::diagram::minimize::minimal;
 use crate::search::diagram::redundancy_so_far::{Redundancy, Spent};
-use crate::search::diagram::{self, Carries, DEAD, Diagram, Layer, Progress, Stop, next};
+use crate::search::diagram::stage::Adding;
+use crate::search::diagram::{Carries, DEAD, Diagram, Layer, Progress, Stop, next};
 use crate::search::question::space::Space;
 use rayon::prelude::*;
 
 /// Pairs of nodes tried at most, for each node of the budget.
 const PAIRS: usize = 500;
-/// Pairs of nodes that take about as long as a node from one end, for each square of the rows of a contour: so many numbers a node is
-/// eliminated with, where a pair takes a sum of products.
-const PAIRS_A_SQUARE: usize = 5;
-
 /// Layers from one end, as far as they have come.
 struct Side<'a> {
-    stages: &'a [Added],
+    stages: &'a [Adding],
     layers: Vec<Layer>,
     nodes: Nodes,
 }
 
 impl<'a> Side<'a> {
-    fn new(stages: &'a [Added], already: u32) -> Self {
+    fn new(stages: &'a [Adding], already: u32) -> Self {
         Side {
             stages,
             layers: Vec::new(),
@@ -44,7 +39,7 @@ impl<'a> Side<'a> {
     }
 
     /// The stage that comes next.
-    fn ahead(&self) -> &'a Added {
+    fn ahead(&self) -> &'a Adding {
         &self.stages[self.layers.len()]
     }
 
@@ -71,12 +66,8 @@ impl Met<'_> {
     }
 }
 
-/// The diagram of a question from one end, within so many nodes; none where it does not fit them.
-type FromOneEnd<'a> = dyn FnMut(usize, &mut (dyn FnMut(Progress) + Send)) -> Option<Diagram> + 'a;
-
-/// The whole diagram of a question whose variants have no redundant constraints but those that all have, part by part; none where
-/// it does not fit the limits either, or where it is cancelled. Where as many nodes as take about as long as the pairs of both halves
-/// may be enough from one end, `from_one_end` is asked for the diagram within so many.
+/// Returns the whole diagram of a question whose variants have no redundant constraints except those that all have, part by part. Returns
+/// `None` if it does not fit the limits, or if cancelled.
 ///
 /// # Complexity
 /// O(n·m) joins for n and m nodes where the halves meet, which are about as many as half of the joints need.
@@ -85,20 +76,18 @@ pub(in crate::search) fn two_sided(
     space: &Space,
     cancelled: &(dyn Fn() -> bool + Sync),
     progress: &mut (dyn FnMut(Progress) + Send),
-    from_one_end: &mut FromOneEnd<'_>,
 ) -> Option<Diagram> {
     let of = question.parts.iter().map(|[front, _]| front.len()).sum();
-    let mut told = |done: usize, before: usize, now: Progress| {
-        progress(Progress {
-            done: done + now.done,
-            of,
-            nodes: before + now.nodes,
-            ..now
-        });
-    };
     let (mut parts, mut done, mut total) = (Vec::new(), 0, 1);
     for ends in &question.parts {
-        let told = &mut |now: Progress| told(done, total, now);
+        let told = &mut |now: Progress| {
+            progress(Progress {
+                done: done + now.done,
+                of,
+                nodes: total + now.nodes,
+                ..now
+            });
+        };
         let met = halves(question, space, ends, cancelled, told)?;
         done += ends[0].len();
         total += met.front.nodes.len() + met.back.nodes.len();
@@ -107,7 +96,8 @@ pub(in crate::search) fn two_sided(
     let held: usize = parts.iter().map(Met::bytes).sum();
     let left = question.limits.bytes.checked_sub(held)?;
     let met = parts.into_iter().enumerate().map(|(part, met)| {
-        let meeting = question.meeting(part, &met.front.nodes, &met.back.layers);
+        let nodes = [&met.front.nodes, &met.back.nodes];
+        let meeting = question.meeting(part, nodes, met.back.layers.len());
         (met, meeting)
     });
     let parts: Vec<(Met<'_>, Meeting)> = met.collect();
@@ -116,41 +106,11 @@ pub(in crate::search) fn two_sided(
     if pairs / PAIRS > question.limits.nodes {
         return None;
     }
-    if let Some(whole) = from_one_end(pairs / (PAIRS_A_SQUARE * space.dim.pow(2)), progress) {
-        return Some(whole);
-    }
-    joined(
-        question,
-        parts,
-        left / 4,
-        cancelled,
-        &mut |done, nodes, meeting| {
-            progress(Progress {
-                done,
-                of,
-                nodes,
-                layer: meeting.of,
-                meeting: Some(meeting),
-            });
-        },
-    )
-}
-
-/// The diagram of parts whose halves are there; `told` hears of the layers and nodes so far, and how far halves have met.
-fn joined(
-    question: &Halves<'_>,
-    parts: Vec<(Met<'_>, Meeting)>,
-    bytes: usize,
-    cancelled: &(dyn Fn() -> bool + Sync),
-    told: &mut dyn FnMut(usize, usize, diagram::Meeting),
-) -> Option<Diagram> {
     let most = question.limits.nodes;
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (met, meeting) in parts {
-        let of = met.front.nodes.len();
-        let told = &mut |done: usize| told(layers.len(), total, diagram::Meeting { done, of });
-        let (of_front, sets) = meeting.join(&met.front.nodes, bytes, cancelled, told)?;
+        let (of_front, sets) = meeting.join(left / 4, cancelled)?;
         let (back, sets) = without_twins(met.back.layers, sets);
         let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();
@@ -169,7 +129,7 @@ fn joined(
 fn halves<'a>(
     question: &'a Halves<'_>,
     space: &Space,
-    ends: &'a [Vec<Added>; 2],
+    ends: &'a [Vec<Adding>; 2],
     cancelled: &(dyn Fn() -> bool + Sync),
     told: &mut dyn FnMut(Progress),
 ) -> Option<Met<'a>> {

@@ -1,4 +1,4 @@
-//! The twin of the diagram: look at every variant. Kept for checking and for the comparison of speed.
+//! Brute force: examines every variant. It is used for checks and for comparisons of speed.
 
 use crate::closure::Closure;
 use crate::geom::exact::ExactError;
@@ -26,8 +26,8 @@ pub struct Seen {
     pub external: i32,
     /// Dimension of the kept links' motion.
     pub motion: usize,
-    /// Whether it is the present one throughout the motion of the mechanism as built; `None` where that is not asked or the variant has
-    /// redundant constraints in the drawn pose.
+    /// Whether the motion is the present one throughout the motion of the mechanism as built; `None` if that is not asked, or if the
+    /// variant has redundant constraints in the drawn pose.
     pub lasts: Option<bool>,
 }
 
@@ -53,7 +53,7 @@ impl Seen {
 pub struct Matrices {
     field: Field,
     all: WrittenOut<Residue>,
-    /// The same along the motion, with the dimension of the present joints' kept motion there.
+    /// The matrices along the motion, with the dimension of the present joints' kept motion there.
     along: Option<(WrittenOut<Residue>, usize)>,
     /// For each joint without a choice, the columns of every motion.
     whole: Vec<(JointId, Vec<Vec<Residue>>)>,
@@ -161,11 +161,10 @@ pub(super) fn eliminate(f: Field, mut vectors: Vec<Vec<Residue>>) -> Vec<usize> 
     pivots
 }
 
-/// Counts by looking at every variant. What the searched state makes of a variant is asked of
-/// the mechanism that the variant is.
+/// Counts by examining every variant. The searched state is examined on the mechanism of the variant.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// One elimination a variant, in parallel over the choices of the first variables, and with a state some more for those
@@ -192,7 +191,7 @@ pub fn every_variant(question: &Question) -> Result<SearchCounts, ExactError> {
 /// Properties of a variant, whether it is admissible but for mobility and changes, and whether it lasts.
 type Judged = (Key, bool, bool);
 
-/// Every variant with few enough redundant constraints, by what is told of it.
+/// Counts the variants with few enough redundant constraints by their properties.
 fn count(question: &Question, matrices: &Matrices) -> Result<BTreeMap<Judged, u128>, ExactError> {
     let steps = &question.steps;
     let radix: Vec<usize> = steps.keys.iter().map(Vec::len).collect();
@@ -245,12 +244,11 @@ pub fn key(question: &Question, choices: &[usize], redundancy: Redundancy) -> Ke
     Key(sum + question.steps.redundancy(redundancy).0)
 }
 
-/// The properties of a variant of which this was seen, and whether it is admissible but for W and changes, which
-/// [`Question::wanted`] knows; `None` where it is not determinate. What the searched state makes of it is asked of the
-/// mechanism that the variant is.
+/// Returns the properties of a variant, and whether it is admissible except for the conditions on W and changes ([`Question::wanted`]).
+/// Returns `None` if it is not determinate. The searched state is examined on the mechanism of the variant.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 pub fn judge(
     question: &Question,
     choices: &[usize],

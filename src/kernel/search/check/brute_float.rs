@@ -14,19 +14,18 @@ use crate::search::question::rounded_rank::{Digits, RankRange};
 use crate::search::question::space::{Choice, columns};
 use ozols_dense::{Matrix, singular_values};
 
-/// Rows of a variant's matrix that have a rank of their own.
+/// The rows of a variant's matrix of which a rank is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RankedRows {
     /// The closure equations of the free state.
     Free,
     /// These, and the motion of the kept links.
     WithKept,
-    /// The closure equations of the searched state; no rows where none is searched.
+    /// The closure equations of the searched state; no rows if none is searched.
     State,
 }
 
-/// The closure matrices of all variants at once, in double precision, as an elimination wants them: as they stand, or for
-/// singular values scaled, so that units do not matter.
+/// The closure matrices of all variants in double precision. For singular values they are scaled, so that units do not matter.
 #[derive(Debug)]
 pub struct Approximate {
     elimination: Elimination,
@@ -38,7 +37,7 @@ impl Approximate {
     /// Writes the columns of a search's space out, for ranks within a tolerance.
     ///
     /// # Errors
-    /// None where the search has an exact image already.
+    /// Returns no error if the search has an exact image.
     pub fn new(
         question: &Question,
         elimination: Elimination,
@@ -51,7 +50,7 @@ impl Approximate {
     /// file writes.
     ///
     /// # Errors
-    /// Where a coordinate has no value.
+    /// Returns an error if a coordinate has no value.
     pub fn of(
         question: &Question,
         mechanism: &Mechanism,

@@ -1,63 +1,46 @@
 //! The closure matrices of all variants at once: every choice's columns, written out in full, in any number system.
 
-use crate::closure::contour::{Contour, contour_basis};
-use crate::closure::tree::path_from_frame;
+use crate::closure::contour::contour_basis;
 use crate::geom::Scalars;
 use crate::linalg::modp::Residue;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
+use crate::model::mechanism::{JointId, StateId};
 use crate::motion::displacement_series::multiples;
 use crate::search::question::Question;
 use crate::search::question::space::Variable;
 use crate::search::question::throughout::{ColumnSeries, ORDER};
+use crate::search::reduce::self_stress_space::{ClosingRows, Part};
 use std::ops::Range;
 
-/// What a choice puts at each joint of its variable: twists, each with the joint's entries in the rows of its couplings
-/// behind it.
+/// The twists of a choice at each joint of its variable, each followed by the joint's entries in the rows of its couplings.
 pub(crate) type Spans<N> = Vec<Vec<Vec<N>>>;
 
-/// What the rows of the matrices are: contours and couplings of the free state, motions of the kept links, and contours and
-/// couplings of the searched state, all of them once more.
+/// The rows of the matrices: contours and couplings of the free state, motions of the kept links, and all contours and couplings of the
+/// searched state.
 pub(in crate::search) struct RowLayout<'a> {
-    mechanism: &'a Mechanism,
     dim: usize,
-    free: Vec<Contour>,
-    coupled: Vec<usize>,
-    /// From the frame to each kept link; rows of kept drives come after theirs.
-    paths: Vec<Vec<(JointId, bool)>>,
-    state: Vec<Contour>,
-    coupled_in_state: Vec<usize>,
+    free: ClosingRows<'a>,
+    state: Option<ClosingRows<'a>>,
 }
 
 impl RowLayout<'_> {
     pub(in crate::search) fn new(question: &Question) -> RowLayout<'_> {
-        let mechanism = &*question.mechanism;
-        let kept = question.kept.links.iter();
-        let paths = kept.map(|&l| path_from_frame(mechanism, StateId::FREE, l));
-        // Couplings by index.
-        let coupled = |s: StateId| -> Vec<usize> {
-            let present =
-                |&q: &usize| mechanism.joints[mechanism.couplings[q].ends[0].joint].is_in(s);
-            (0..mechanism.couplings.len()).filter(present).collect()
+        let (mechanism, dim) = (&*question.mechanism, question.space.dim);
+        let of_state = |s: StateId| {
+            let contours = contour_basis(mechanism, s);
+            ClosingRows::in_state(mechanism, dim, s, contours, Vec::new())
         };
-        let state = question.space.state;
         RowLayout {
-            mechanism,
-            dim: question.space.dim,
-            free: contour_basis(mechanism, StateId::FREE),
-            coupled: coupled(StateId::FREE),
-            paths: paths.collect(),
-            state: state.map_or_else(Vec::new, |s| contour_basis(mechanism, s)),
-            coupled_in_state: state.map_or_else(Vec::new, coupled),
+            dim,
+            free: ClosingRows::free(mechanism, dim, &question.contours, Some(&question.kept)),
+            state: question.space.state.map(of_state),
         }
     }
 
     /// How many rows there are of each kind.
     fn rows(&self) -> [usize; 3] {
-        [
-            self.free.len() * self.dim + self.coupled.len() + self.mechanism.locked_drives(),
-            self.paths.len() * self.dim + self.mechanism.kept_drives(),
-            self.state.len() * self.dim + self.coupled_in_state.len(),
-        ]
+        let state = self.state.as_ref();
+        let state = state.map_or(0, ClosingRows::closing);
+        [self.free.closing(), self.free.kept(), state]
     }
 
     /// Returns the columns of each choice along the motion times each power of t, in the rows of the free state at each power and then
@@ -93,40 +76,29 @@ impl RowLayout<'_> {
         })
     }
 
-    /// The column of a twist at a joint; behind it stand the joint's rates.
+    /// Returns the column of a twist at a joint, which is followed by the joint's rates.
     pub(in crate::search) fn column<S: Scalars>(
         &self,
         s: &S,
         j: JointId,
         twist: &[S::Number],
     ) -> Vec<S::Number> {
-        let zero = S::Number::default;
         let (twist, rates) = twist.split_at(self.dim);
-        let block = |sign: Option<bool>| -> Vec<S::Number> {
-            match sign {
-                None => vec![zero(); self.dim],
-                Some(true) => twist.to_vec(),
-                Some(false) => twist.iter().map(|t| s.sub(zero(), t.clone())).collect(),
+        let mut out = vec![S::Number::default(); self.rows().iter().sum()];
+        let [closing, kept, _] = self.rows();
+        for (first, rows) in [(0, Some(&self.free)), (closing + kept, self.state.as_ref())] {
+            for (at, part) in rows.into_iter().flat_map(|rows| rows.parts(j)) {
+                let out = &mut out[first + at..];
+                match part {
+                    Part::Twist { forward: true } => out[..twist.len()].clone_from_slice(twist),
+                    Part::Twist { forward: false } => {
+                        let signed = out.iter_mut().zip(twist);
+                        signed.for_each(|(x, t)| *x = s.sub(S::Number::default(), t.clone()));
+                    }
+                    Part::Rate(rate) => out[0] = rates[rate].clone(),
+                }
             }
-        };
-        let coupling = |q: &usize| {
-            let at = self.mechanism.couplings_of(j).position(|(c, _)| c == *q);
-            at.map_or_else(zero, |i| rates[i].clone())
-        };
-        let of_path = |p: &Vec<(JointId, bool)>| p.iter().find(|(q, _)| *q == j).map(|(_, s)| *s);
-        let mut out = Vec::with_capacity(self.rows().iter().sum());
-        out.extend(self.free.iter().flat_map(|c| block(c.direction(j))));
-        let drive = self.mechanism.drive_at(j);
-        let driven = |d: usize| match drive {
-            Some(own) if own == d => rates[rates.len() - 1].clone(),
-            _ => zero(),
-        };
-        out.extend(self.coupled.iter().map(coupling));
-        out.extend((0..self.mechanism.locked_drives()).map(driven));
-        out.extend(self.paths.iter().flat_map(|p| block(of_path(p))));
-        out.extend((0..self.mechanism.kept_drives()).map(driven));
-        out.extend(self.state.iter().flat_map(|c| block(c.direction(j))));
-        out.extend(self.coupled_in_state.iter().map(coupling));
+        }
         out
     }
 }

@@ -1,8 +1,8 @@
 //! Whether a variant is over the stroke what it is in the file's pose, or is so in that one lucky pose only.
 //!
-//! A redesign only adds freedoms, so whatever pose the present mechanism can take, each variant can take too. Poses are
-//! reached by Newton's method from steps along the present motion; each joint of a variant is then displaced as the present joint
-//! is, while its further freedoms rest, and the rank is taken there by singular values.
+//! A redesign only adds freedoms, so each variant can take every pose of the present mechanism. Poses are reached by Newton's method from
+//! steps along the present motion. Then each joint of a variant is displaced as the present joint is, while its further freedoms rest, and
+//! the rank is computed there by singular values.
 //!
 //! What luck there may be: rank is largest at generic poses, so a variant with σ = 0 has it almost everywhere, but an
 //! idle motion that leaves the outputs at rest in the file's pose may move them in others; and the file's pose may be a
@@ -29,7 +29,7 @@ const STEP: f64 = 0.2;
 /// How often a step that does not close is halved.
 const HALVINGS: u32 = 4;
 
-/// Newton steps to the coordinates of a joint at most, and how near they must come.
+/// Maximum number of Newton steps to the coordinates of a joint, and the required accuracy.
 const NEWTON: usize = 30;
 const REACHED: f64 = 1e-10;
 
@@ -41,7 +41,8 @@ type JointDisplacements = Vec<(JointId, RigidMotion)>;
 pub struct Stroke {
     /// Poses asked for.
     pub asked: usize,
-    /// Those reached: the displacements over the present joints in the file's unit, and the dimension of the kept links' present motion.
+    /// The poses reached: the displacements over the present joints in the file's unit, and the dimension of the kept links' present
+    /// motion.
     poses: Vec<(JointDisplacements, Option<i64>)>,
 }
 
@@ -81,11 +82,11 @@ impl OverStroke {
     }
 }
 
-/// Reaches `count` generic poses along the present motion of the free state, both ways from the file's pose, as far
-/// as it has one, and until `cancelled`.
+/// Reaches `count` generic poses along the present motion of the free state, in both directions from the file's pose. Returns fewer if it
+/// has no motion or if cancelled.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
 /// Some closings of O((6k)² f) a pose.
@@ -166,8 +167,8 @@ pub(crate) fn over(
     out
 }
 
-/// Returns the figures of a variant in a pose of the present mechanism, whose joints there have these displacements; `None` where it
-/// cannot be put there. Freedoms that the present joints do not need rest.
+/// Returns the figures of a variant in a pose of the present mechanism, given by the displacements of its joints. Freedoms that the present
+/// joints do not need rest. Returns `None` if the variant cannot take the pose.
 fn figures(
     question: &Question,
     m: &Mechanism,
@@ -229,7 +230,7 @@ fn coordinates(twists: &[Twist], goal: &RigidMotion) -> Option<Vec<f64>> {
     None
 }
 
-/// The figures of a mechanism, the present one or a realized variant, in a pose of it.
+/// Returns the figures of a mechanism in one of its poses.
 fn figures_at(question: &Question, m: &Mechanism, pose: &Pose) -> Option<Figures> {
     let f = pose.columns.len();
     let jacobian = pose.jacobian(&vec![0.0; f]);

@@ -1,5 +1,5 @@
-//! A search that prunes: depth first over the joints, leaving out what can no longer become determinate. It is what one would
-//! write who has no diagram; kept for the comparison of speed.
+//! A depth-first search over the joints that leaves out branches without determinate variants. It is the usual method without a diagram,
+//! and serves the comparison of speed.
 //!
 //! [`brute`](super::brute) eliminates every variant's matrix from the start. Here a branch keeps what its joints so far have
 //! eliminated, and ends where even all that the joints to come offer at once cannot raise the rank far enough.
@@ -46,7 +46,7 @@ impl Echelon {
         }
     }
 
-    /// The rank of the first so many rows.
+    /// Returns the rank of the first rows.
     fn rank(&self, rows: usize) -> usize {
         self.vectors.iter().filter(|(lead, _)| *lead < rows).count()
     }
@@ -86,8 +86,7 @@ impl Pruned {
     /// Visits the determinate variants that begin with the given choices, in the order of the variables.
     ///
     /// # Complexity
-    /// O(rows^2) for each column of each branch that is entered, as much again for each vector still to come where the rank
-    /// is not there yet.
+    /// O(rows²) for each column of each branch that is entered, and as much for each later vector while the rank is too small.
     pub fn visit(&self, beginning: &[usize], leaf: &mut dyn FnMut(&[usize], Seen)) {
         let mut choices = vec![0; self.order.len()];
         let mut so_far = Echelon::default();
@@ -100,7 +99,7 @@ impl Pruned {
         self.descend(beginning.len(), &mut choices, &mut so_far, leaf);
     }
 
-    /// What is seen of one variant; `None` where it is left out on the way.
+    /// Returns the result for one variant; `None` if its branch is left out.
     #[must_use]
     pub fn look(&self, choices: &[usize]) -> Option<Seen> {
         let mut found = None;

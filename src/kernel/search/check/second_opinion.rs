@@ -1,16 +1,16 @@
 //! A second opinion on the counts of a search whose coordinates were rounded: the ranks that exact arithmetic counts on are
 //! compared with those that singular values of the geometry in the file show, at the tolerance of its digits.
 //!
-//! The mechanism as it is, the variants listed, and a sample of the admissible ones and of all are looked at; and counts must
-//! keep a law: what only adds freedoms takes no mobility away. One contradiction, and no count is exact.
+//! The check covers the present mechanism, the listed variants, and samples of the admissible and of all variants. Counts must also obey a
+//! law: options that only add freedoms remove no mobility. After one contradiction, no count is called exact.
 
 use crate::geom::exact::ExactError;
 use crate::rank::numeric::Elimination;
 use crate::search::answer::counts::Counts;
 use crate::search::answer::k_best::Assignment;
+use crate::search::at_tolerance::{any_choices, choices};
 use crate::search::check::brute::Matrices;
 use crate::search::check::brute_float::{Approximate, RankedRows};
-use crate::search::numeric::at_tolerance::{any_choices, choices};
 use crate::search::question::Question;
 use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::{Digits, RankRange};
@@ -21,7 +21,7 @@ use num_traits::{ToPrimitive, Zero};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Variants drawn of each kind, at least and at most. A relation of the geometry that was missed may matter for few variants only.
+/// Minimum and maximum number of variants drawn of each kind. A missed relation of the geometry may matter for few variants only.
 const DRAWN: [usize; 2] = [64, 4096];
 /// Products that half a second of one processor allows in decompositions, about.
 const PRODUCTS: usize = 10_000_000;
@@ -57,16 +57,16 @@ pub struct Contradiction {
 pub struct BelowPresent {
     /// How many.
     pub variants: BigUint,
-    /// The mobility of the mechanism as it is, at least.
+    /// The least mobility of the present mechanism.
     pub present: i64,
 }
 
 /// What singular values say of the counts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SecondOpinion {
-    /// What the digits tell.
+    /// The accuracy of the digits.
     pub digits: Digits,
-    /// The mechanism as it is, and those listed.
+    /// The present mechanism and the listed variants.
     pub listed: Asked,
     /// A sample of the admissible ones.
     pub admissible: Asked,
@@ -104,8 +104,8 @@ impl SecondOpinion {
     }
 }
 
-/// What was expected of a variant: redundant constraints of the free state and of the searched one, and the dimension of the
-/// kept links' motion.
+/// The expected figures of a variant: redundant constraints of the free and of the searched state, and the dimension of the kept links'
+/// motion.
 struct Expected {
     choices: Vec<usize>,
     internal: usize,
@@ -114,7 +114,7 @@ struct Expected {
 }
 
 impl Expected {
-    /// Of a variant that is looked at by exact arithmetic.
+    /// Returns the figures of a variant by exact arithmetic.
     fn looked(question: &Question, exact: &Matrices, choices: Vec<usize>) -> Expected {
         let seen = exact.look(&choices);
         let of_state = i64::from(seen.external) + i64::from(seen.internal);
@@ -127,7 +127,7 @@ impl Expected {
         }
     }
 
-    /// Of a variant that was counted.
+    /// Returns the figures of a counted variant.
     fn counted(question: &Question, v: Assignment) -> Expected {
         let of_state = i64::from(v.key.external()) + i64::from(v.key.internal());
         let of_state = usize::try_from(of_state).ok();
@@ -141,7 +141,7 @@ impl Expected {
     }
 }
 
-/// What one variant's singular values say.
+/// The result of one variant's singular values.
 struct Said {
     undecided: bool,
     narrowest: f64,
@@ -158,8 +158,8 @@ impl Asked {
     }
 }
 
-/// How many variants of a kind are asked about: of a small mechanism more, so that asking takes about half a second at most but for
-/// the largest.
+/// Returns the number of variants of each kind that are checked. Small mechanisms have more, so that the check takes about half a second
+/// except for the largest.
 #[must_use]
 pub fn sample_size(question: &Question) -> usize {
     let rows = usize::try_from(question.rows).unwrap_or(0).max(1);
@@ -184,7 +184,7 @@ fn drawn(question: &Question, seed: u64) -> Vec<Vec<usize>> {
 /// from `seed`, and whether the counts keep the law.
 ///
 /// # Errors
-/// Where a coordinate has no value.
+/// Returns an error if a coordinate has no value.
 ///
 /// # Complexity
 /// Two or three decompositions a variant, in parallel.

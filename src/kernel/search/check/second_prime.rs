@@ -21,10 +21,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 use thiserror::Error;
 
-/// Differences told in a message at most.
+/// Maximum number of differences in a message.
 const TOLD: usize = 4;
 
-/// What the second prime says.
+/// The result of the second prime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// All counts and lists are equal.
@@ -38,7 +38,7 @@ pub enum Verdict {
 pub struct PrimeCheck {
     /// Both primes.
     pub primes: [u64; 2],
-    /// What the second says.
+    /// The result of the second prime.
     pub verdict: Verdict,
 }
 
@@ -86,7 +86,7 @@ pub fn build_both(
 /// Compares a search with its twin over another prime: structure first, then all counts and the `top` best.
 ///
 /// # Errors
-/// Where they differ, with both counts.
+/// Returns an error with both counts if they differ.
 ///
 /// # Complexity
 /// O(edges) where the diagrams are equal, which they always were; counting both where they are not.
@@ -146,7 +146,7 @@ fn disagreement(
 /// Compares counts that were made over the primes of two searches.
 ///
 /// # Errors
-/// Where they differ, with both.
+/// Returns an error with both if they differ.
 pub fn compare_counts(
     questions: [&Question; 2],
     counts: [&SearchCounts; 2],

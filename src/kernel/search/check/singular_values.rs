@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 
 /// Variants that get a second opinion by default.
 pub const CHECKED: usize = 1000;
-/// Products that all second opinions of a list may cost, one decomposition of m x n taken for m n min(m, n).
+/// Maximum number of products for all second opinions of a list; a decomposition of m x n counts as m n min(m, n).
 const WORK: usize = 70_000_000;
 /// Variants that get one however large they are.
 const AT_LEAST: usize = 20;
@@ -45,7 +45,7 @@ pub fn affordable(question: &Question) -> usize {
 /// let them loose.
 pub const NEARLY_SINGULAR: f64 = 1e-4;
 
-/// What the singular values say of a variant.
+/// The figures of a variant by singular values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Opinion {
     /// W in the free state.
@@ -92,7 +92,7 @@ impl Certified {
         }
     }
 
-    /// Whether other poses were looked at and give other figures.
+    /// Returns true if other poses were examined and have other figures.
     #[must_use]
     pub fn lucky(&self) -> bool {
         self.stroke.is_some_and(|s| s.lucky() == Some(true))
@@ -111,7 +111,7 @@ pub enum Second {
 }
 
 impl Second {
-    /// The opinion, where there is one.
+    /// Returns the opinion, if there is one.
     #[must_use]
     pub fn opinion(&self) -> Option<&Opinion> {
         match self {
@@ -132,7 +132,7 @@ pub struct Summary {
     pub disagreeing: usize,
     /// Those whose singular values did not converge.
     pub failed: usize,
-    /// Those looked at in other poses too.
+    /// Variants that were also examined in other poses.
     pub posed: usize,
     /// Those whose figures differ in another pose.
     pub lucky: usize,
@@ -170,8 +170,8 @@ struct Shape {
     state: Option<(StateId, Vec<Contour>)>,
 }
 
-/// Analyses some variants by singular values, and in the poses of a stroke where one is given, in parallel; the first
-/// of them alone where `cancelled`.
+/// Analyses variants by singular values, and in the poses of a stroke if one is given, in parallel. If cancelled, returns only the first of
+/// them.
 ///
 /// # Complexity
 /// Two or three decompositions of a 6k x f matrix a variant, and about two more for each pose.
@@ -233,7 +233,7 @@ fn shape(question: &Question, realized: &Mechanism) -> Shape {
 /// converge, or would take too long.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// One exact rank of each state and as many decompositions as for a variant.

@@ -1,4 +1,4 @@
-//! A variant as a mechanism of its own: joints replaced, unloading joints in series with links of their own.
+//! A variant as a mechanism: joints are replaced, and unloading joints are in series, each with its own link.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{

@@ -4,7 +4,7 @@ use crate::search::diagram::layer::{CUT, Merge, Nodes};
 use crate::search::diagram::redundancy_so_far::Limits;
 use crate::search::diagram::stop::Stop;
 
-/// What a diagram may take, and what it has taken.
+/// The budget of a diagram, and what it has used.
 pub(in crate::search) struct Allowance<'a> {
     limits: &'a Limits,
     /// Bytes allowed: less than the limits say where the system refused that many.
@@ -16,7 +16,7 @@ pub(in crate::search) struct Allowance<'a> {
 }
 
 impl<'a> Allowance<'a> {
-    /// Of a diagram that has its root.
+    /// Returns the budget of a diagram with its root.
     pub(in crate::search) fn new(limits: &'a Limits) -> Self {
         Allowance {
             limits,
@@ -31,12 +31,12 @@ impl<'a> Allowance<'a> {
         self.limits.nodes.saturating_sub(self.nodes)
     }
 
-    /// Nodes that a layer keeps at least.
+    /// Returns the minimum number of nodes that a layer keeps.
     fn fewest(&self) -> usize {
         CUT.min(self.limits.nodes)
     }
 
-    /// A layer to be put together behind some nodes, with about so many edges.
+    /// Returns an empty layer after some nodes, for about `edges` edges.
     pub(in crate::search) fn layer(&self, nodes: &Nodes, edges: usize, stop: Stop) -> Merge {
         let room = self.left().min(self.limits.layer).max(self.fewest());
         let bytes = self.bytes.saturating_sub(self.edges + nodes.bytes());
@@ -49,7 +49,7 @@ impl<'a> Allowance<'a> {
         self.bytes = self.bytes.min(now / 2);
     }
 
-    /// How many nodes of a layer are kept, where so many layers with it are to come.
+    /// Returns the number of nodes of a layer that are kept, if `layers` layers are to come, this one included.
     pub(in crate::search) fn keep(
         &self,
         next: &Nodes,
@@ -72,7 +72,7 @@ impl<'a> Allowance<'a> {
         }
     }
 
-    /// Takes a layer with so many nodes and edges to them.
+    /// Adds a layer of some nodes and edges to what was used.
     pub(in crate::search) fn take(&mut self, nodes: usize, edges: usize) {
         self.nodes += nodes;
         self.edges += size_of::<u32>() * edges;

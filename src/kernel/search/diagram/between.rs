@@ -1,4 +1,4 @@
-//! Nodes that stand for many: what all of them add, what none of them exceeds, and how much of that there is at most.
+//! Relaxed nodes: a node stands for several spaces by their intersection, their sum, and bounds of their dimensions.
 //!
 //! A diagram in the space dual to self-stresses has too many nodes where each part can be chosen in many ways that differ a
 //! little. Put together, some of them are a node that every one of them lies between: it has the futures of each, and maybe more.
@@ -15,9 +15,9 @@ use crate::search::diagram::stage::Adding;
 /// Spaces that contain one, lie within another, and reach no more than so many dimensions; one space where both are the same.
 #[derive(Clone, Default)]
 pub(in crate::search) struct Between {
-    /// What all of them have.
+    /// The intersection of the spaces.
     all: Rows,
-    /// What any of them may have; the same as all where there is one space.
+    /// The sum of the spaces; `None` if there is one space.
     any: Option<Rows>,
     /// How many dimensions one has at most in the coordinates before each boundary to come.
     most: Vec<usize>,
@@ -25,7 +25,7 @@ pub(in crate::search) struct Between {
     least: usize,
 }
 
-/// A stage for nodes that stand for many.
+/// A stage for relaxed nodes.
 pub(in crate::search) struct Passed<'a> {
     pub(in crate::search) stage: &'a Adding,
     /// Coordinates of contours before each place where some end, from this stage on.
@@ -70,7 +70,7 @@ impl Between {
         out
     }
 
-    /// What nodes must agree in to be put together, the finer the higher the level, of [`LEVELS`].
+    /// Returns the numbers that merged nodes must have in common; there are more of them at higher levels, of which there are [`LEVELS`].
     pub(in crate::search) fn kind(&self, level: usize) -> Vec<usize> {
         let mut out = match level {
             0 => self.most.first().copied().into_iter().collect(),
@@ -103,7 +103,7 @@ impl Between {
         self.least = self.least.min(other.least);
     }
 
-    /// The same in the coordinates of a stage, with a space of its own that any may have.
+    /// Returns the node in the coordinates of a stage, with its own sum.
     fn entered(&self, stage: &Adding) -> Between {
         let widened = |rows: &Rows| rows.widened(stage.columns.width, &stage.columns.places);
         Between {
@@ -113,7 +113,7 @@ impl Between {
         }
     }
 
-    /// What it becomes over a stage, for each of its choices; none where no space that it stands for has a future.
+    /// Returns the children at a stage for each choice; `None` if no space of the node has a completion.
     pub(in crate::search) fn children(
         &self,
         arithmetic: &mut Arithmetic,
@@ -160,7 +160,7 @@ impl Between {
         }
     }
 
-    /// Drops the coordinates that no later stage reaches; none where a contour stays redundant, or a kept link goes wrong.
+    /// Drops the coordinates that no later stage reaches. Returns `None` if a contour stays redundant, or if a kept link moves wrongly.
     fn ended(mut self, over: &Passed<'_>) -> Option<Between> {
         let (contours, gap) = (over.stage.contours.len(), over.stage.columns.closing);
         let in_contours = self.most.last().copied().unwrap_or(0);

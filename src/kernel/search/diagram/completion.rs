@@ -19,12 +19,12 @@ pub(in crate::search) struct Ceiling<'m> {
     missing: &'m Missing,
     /// The cost. `[thousandths]`
     pub(in crate::search) cost: i64,
-    /// How often something was left out for its least cost, by that cost.
+    /// The number of nodes left out, by their least cost.
     pub(in crate::search) beyond: BTreeMap<i64, usize>,
 }
 
 impl<'m> Ceiling<'m> {
-    /// A ceiling that has left out nothing yet.
+    /// Returns a ceiling that has left out no node yet.
     pub(in crate::search) fn new(missing: &'m Missing, cost: i64) -> Self {
         Ceiling {
             missing,
@@ -55,8 +55,8 @@ impl<'m> Ceiling<'m> {
 /// Least costs of completions by dimension.
 #[derive(Debug)]
 pub(in crate::search) struct Missing {
-    /// Least cost in thousandths of a completion, after so many stages, by dimension; none where there is no completion. A
-    /// larger dimension than the last counts as the last.
+    /// Least cost in thousandths of a completion, by number of stages and by dimension; `None` if there is no completion. The last entry
+    /// also holds for larger dimensions.
     least: Vec<Vec<Option<i64>>>,
     /// Open coordinates of contours after so many stages.
     width: Vec<usize>,

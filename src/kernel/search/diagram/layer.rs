@@ -1,4 +1,4 @@
-//! A layer of the diagram being put together: equal children become one node.
+//! A layer of the diagram while it is built: equal children become one node.
 
 use crate::linalg::modp::Residue;
 use crate::search::diagram::redundancy_so_far::Spent;
@@ -94,7 +94,7 @@ impl Nodes {
     }
 }
 
-/// A layer being put together.
+/// A layer while it is built.
 pub(in crate::search) struct Merge {
     /// New nodes allowed.
     room: usize,
@@ -109,7 +109,7 @@ pub(in crate::search) struct Merge {
 }
 
 impl Merge {
-    /// A layer that takes so many nodes and bytes, and whose edges are about as many as `edges`.
+    /// Returns an empty layer with limits on nodes and bytes, for about `edges` edges.
     pub(in crate::search) fn new(room: usize, bytes: usize, stop: Stop, edges: usize) -> Self {
         Merge {
             room,
@@ -122,7 +122,7 @@ impl Merge {
         }
     }
 
-    /// Takes few more nodes, and none where there are some: then the rest of `edges` in all lead nowhere.
+    /// Limits the layer to few nodes. If it has that many already, all other edges lead nowhere.
     pub(in crate::search) fn interrupt(&mut self, edges: usize) {
         self.stop = Stop::Interrupted;
         self.room = self.room.min(CUT);

@@ -53,7 +53,7 @@ pub(in crate::search) fn minimal(
     Diagram::whole(layers, terminals)
 }
 
-/// Numbers the nodes in the order in which they are met, and leaves out those that are not.
+/// Numbers the nodes in the order in which they are reached, and removes those that are not.
 fn number_from_the_root(layers: &mut [Layer], terminals: &mut Vec<Redundancy>) {
     let mut met: Vec<u32> = vec![0];
     for layer in layers {

@@ -17,7 +17,7 @@ impl Clone for Rows {
         out
     }
 
-    /// Within the memory that is there already, which the derived one would give away.
+    /// Copies into the existing memory, which the derived implementation would release.
     fn clone_from(&mut self, other: &Self) {
         self.width = other.width;
         self.pivots.clone_from(&other.pivots);
@@ -153,8 +153,8 @@ impl Rows {
     /// What two spans have in common.
     ///
     /// # Sources
-    /// Zassenhaus' algorithm: each vector of the one beside itself, each of the other beside nothing; rows that start with nothing
-    /// have a common vector behind it.
+    /// Zassenhaus' algorithm: rows (a, a) of the first space and (b, 0) of the second one are reduced. Rows that start with zeros contain a
+    /// basis of the intersection.
     pub(super) fn meet(&self, arithmetic: &mut Arithmetic, other: &Rows) -> Rows {
         if self.pivots == other.pivots && self.data == other.data {
             return self.clone();
@@ -209,7 +209,7 @@ impl Rows {
     }
 }
 
-/// The field with a memory of inverses: one takes as long as a hundred products, and the same few come again and again.
+/// The field with a cache of inverses: an inverse takes as long as a hundred products, and few different ones occur.
 pub(in crate::search) struct Arithmetic {
     pub(super) field: Field,
     inverses: Vec<(Residue, Residue)>,

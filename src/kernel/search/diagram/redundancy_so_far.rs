@@ -6,8 +6,6 @@ use itertools::Itertools;
 /// When a partly built mechanism is given up, and when building stops; no number, no limit.
 #[derive(Debug, Clone)]
 pub(crate) struct Limits {
-    /// Redundant constraints within the mechanism that every variant has.
-    pub already: u32,
     /// Redundant constraints allowed within the mechanism.
     pub internal: u32,
     /// Redundant constraints that the state may add.
@@ -18,7 +16,7 @@ pub(crate) struct Limits {
     pub beside_free: bool,
     /// Nodes in all.
     pub nodes: usize,
-    /// Nodes of one layer; what has more is wanted whole or not at all.
+    /// Nodes of one layer; a diagram with a larger layer is not wanted in part.
     pub layer: usize,
     /// Bytes held at a time, nodes and edges.
     pub bytes: usize,
@@ -52,7 +50,7 @@ pub(in crate::search) struct Spent {
 pub struct Redundancy {
     /// Within the mechanism.
     pub internal: u32,
-    /// Of the state less those within; fewer than none where the state leaves joints out.
+    /// Redundant constraints of the state less those within the mechanism; negative if the state removes joints.
     pub external: i32,
     /// Self-stresses that load the joints the state adds with more than friction.
     pub harmful: u32,

@@ -100,6 +100,7 @@ impl Columns {
 /// The columns of contours and of kept links at a variable, with all coordinates of kept links: no motion that goes wrong is dropped.
 #[derive(Debug, Clone)]
 pub(in crate::search) struct Adding {
+    pub(in crate::search) field: Field,
     /// Index of the variable in the space.
     pub(in crate::search) variable: usize,
     /// The coordinates of contours in use, by their numbers; all those of kept links come after these.

@@ -3,7 +3,7 @@
 /// Why building ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
-    /// Everything was looked at: counts are exact.
+    /// The search is complete: counts are exact.
     Exhausted,
     /// The node budget cut layers down to a part of their nodes: counts are lower bounds.
     NodeBudget,

@@ -17,7 +17,7 @@ pub(in crate::search) struct Children {
     /// The children in order of (node, choice); `None` if dead.
     pub(in crate::search) found: Vec<Option<Child>>,
     pub(in crate::search) data: Vec<Residue>,
-    /// Whether some were left out for want of memory.
+    /// Whether children are missing because memory did not suffice.
     pub(in crate::search) short: bool,
 }
 
@@ -30,12 +30,6 @@ impl Children {
             data: Vec::new(),
             short: false,
         }
-    }
-
-    /// None again.
-    pub(in crate::search) fn clear(&mut self) {
-        self.found.clear();
-        self.data.clear();
     }
 
     /// Takes a child.

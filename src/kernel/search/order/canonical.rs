@@ -1,9 +1,8 @@
 //! A numbering of variables that does not depend on how the file lists links and joints.
 //!
-//! Variables differ by how many freedoms their choices have and what they cost; those alike in this differ by the links they
-//! join, and these by their other joints. What is still alike after such refinement of colours is told apart by name. So the
-//! same mechanism has the same numbering whatever the order of its tables, and however it is turned, moved or scaled: no
-//! coordinate is looked at.
+//! Variables are ordered by the freedoms and costs of their choices, then by the links that they join, then by the other joints of these
+//! links. Variables that are still equal after this colour refinement are ordered by name. So the numbering does not depend on the order of
+//! tables in the file, nor on coordinates.
 //!
 //! # Sources
 //! Refinement of colours: Weisfeiler & Leman, "The reduction of a graph to canonical form" (1968).
@@ -15,7 +14,7 @@ use std::collections::BTreeMap;
 /// The variables in their canonical order.
 ///
 /// # Complexity
-/// O(v log v) comparisons of choices, then O((v + n) log n) for each round of refinement, n at most.
+/// O(v log v) comparisons of choices, then O((v + n) log n) for each of at most n rounds of refinement.
 pub(in crate::search) fn canonical(
     mechanism: &Mechanism,
     space: &Space,
@@ -72,7 +71,7 @@ pub(in crate::search) fn canonical(
     out.into_iter().map(|(_, v)| v).collect()
 }
 
-/// Of each value its place among the different ones.
+/// Returns the rank of each value among the different values.
 fn ranks<T: Ord>(values: impl Iterator<Item = T> + Clone) -> Vec<usize> {
     let mut sorted: Vec<T> = values.clone().collect();
     sorted.sort_unstable();

@@ -121,7 +121,7 @@ struct BreadthFirst<'a> {
 }
 
 impl BreadthFirst<'_> {
-    /// The shortest way over an edge and on over those left from `to` until `ends` says so, as variables.
+    /// Returns the shortest path over an edge and then over remaining edges from `to` until `ends` is true, as variables.
     fn ear(
         &mut self,
         first: usize,

@@ -13,6 +13,6 @@ pub struct Written {
     pub others: Vec<Arc<Mechanism>>,
     /// What its digits tell.
     pub digits: Digits,
-    /// Whether each option allows all that the present joint does.
+    /// True if each option allows every motion of the present joint.
     pub only_adds: bool,
 }

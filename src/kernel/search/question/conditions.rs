@@ -19,15 +19,15 @@ pub enum Symmetry {
     /// Only those that are their own mirror image.
     #[serde(rename = "symmetric")]
     SymmetricOnly,
-    /// Of each variant and its mirror image, one.
+    /// One of each variant and its mirror image.
     OnePerOrbit,
 }
 
-/// What is asked of the drives of a redesign.
+/// The condition on the drives of a redesign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Drives {
-    /// Outputs and drives move together as they do in the mechanism as built: no drive lets go.
+    /// Outputs and drives move together as in the mechanism as built.
     #[default]
     Kept,
     /// The outputs alone must keep their motion.
@@ -42,9 +42,9 @@ pub enum Drives {
 pub struct InState {
     /// The state, not the free one; its additional joints take part.
     pub state: StateId,
-    /// Redundant constraints that it may add, where there is a limit.
+    /// Maximum number of redundant constraints that it may add, if limited.
     pub max_external: Option<u32>,
-    /// Harmful ones among them, where there is a limit.
+    /// Maximum number of harmful ones among them, if limited.
     pub max_harmful: Option<u32>,
     /// Whether the objects must be held.
     pub hold_objects: bool,
@@ -63,7 +63,7 @@ impl InState {
     }
 }
 
-/// What variants must be like, said of one mechanism: its state by number.
+/// The conditions on variants of one mechanism, with its state by number.
 #[derive(Debug, Clone)]
 pub struct Conditions {
     /// Redundant constraints allowed within the mechanism.
@@ -76,7 +76,7 @@ pub struct Conditions {
     pub max_changes: Option<u32>,
     /// Whether the outputs, and the links the file holds, must keep exactly their present motions.
     pub keep_output: bool,
-    /// What is asked of the drives, where the outputs must keep their motions.
+    /// The condition on the drives, if the outputs must keep their motions.
     pub drives: Drives,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
@@ -88,15 +88,13 @@ pub struct Conditions {
     pub cheapest: usize,
     /// The seed of estimates, where counts that do not fit the budgets are estimated.
     pub estimate: Option<u64>,
-    /// Whether diagrams have all rows of the closure equations, those that no choice changes too: slower, and for comparison.
-    pub whole_twists: bool,
     /// Node budget of each diagram.
     pub nodes: usize,
     /// Bytes that the search and what is counted on it may hold.
     pub memory: usize,
     /// Second opinions take singular values below this fraction of the largest for zero.
     pub tolerance: f64,
-    /// Where the mechanism that is meant is not there for exact arithmetic: what its digits tell of ranks.
+    /// The accuracy of ranks, if exact arithmetic does not have the intended mechanism.
     pub numeric: Option<Digits>,
     /// The mechanism as its file writes it, where coordinates look rounded and exact arithmetic searches all the same.
     pub written: Option<Written>,
@@ -116,7 +114,6 @@ impl Default for Conditions {
             counted: true,
             cheapest: 0,
             estimate: None,
-            whole_twists: false,
             nodes: 1_000_000,
             memory: 4 << 30,
             tolerance: DEFAULT_TOLERANCE,
@@ -126,7 +123,7 @@ impl Default for Conditions {
     }
 }
 
-/// Most joints that are in no contour: each is one more link that moves by itself, and every step looks at all of them.
+/// Maximum number of joints in no contour: each adds a link that moves independently, and every step examines all of them.
 pub(in crate::search) const OPEN: usize = 200;
 
 /// Why a search could not be made.
@@ -139,7 +136,7 @@ pub enum SearchError {
     /// Symmetry of a mechanism that is not its own mirror image.
     #[error(transparent)]
     Mirror(#[from] MirrorError),
-    /// Independent drives where nothing is driven.
+    /// Independent drives are required, but nothing is driven.
     #[error(
         "no joint of the free state is driven, or the outputs may move in other ways: there are no drives to be independent"
     )]

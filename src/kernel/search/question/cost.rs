@@ -4,26 +4,26 @@
 //!               + Σ over unloading joints (cost of their type + link + change)
 //!               + harmful redundant constraints that a searched state adds · harmful, 0 by default
 //!
-//! A change never costs less than nothing: a plain bush is cheaper than a lead screw, but taking a screw out is no gain.
+//! The cost of a change is never negative: a plain bush is cheaper than a lead screw, but removing a screw is no gain.
 //!
-//! Joint types have default costs ([`JointType::default_cost_milli`]); a file replaces any of them under `[search.costs]`,
-//! and an option may state a cost of its own.
+//! Joint types have default costs ([`JointType::default_cost_milli`]). A file can replace them under `[search.costs]`, and an option can
+//! have its own cost.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{CostSpec, JointOption};
 
 /// Default cost of changing a joint at all, in thousandths.
 pub(crate) const CHANGE: i64 = 1000;
-/// Default cost of changing a driven joint besides, in thousandths: its motor is mounted and guided anew.
+/// Default additional cost of changing a driven joint, in thousandths: its motor is mounted and guided again.
 pub(crate) const DRIVEN: i64 = 2000;
 /// The costs in force for one mechanism, in thousandths.
 #[derive(Debug, Clone)]
 pub struct CostTable {
-    /// What the file says of types and options.
+    /// The costs in the file.
     by_type: Vec<(String, i64)>,
     /// Cost of changing a joint at all.
     pub change: i64,
-    /// Cost of changing a driven joint besides.
+    /// Additional cost of changing a driven joint.
     pub driven: i64,
     /// Cost of an extra link.
     pub link: i64,
@@ -44,8 +44,8 @@ impl CostTable {
         }
     }
 
-    /// The cost of a change of a joint, of a driven one with `drive`, above that of the present one: another joint in its place, an unloading
-    /// joint with its link beside it, or both.
+    /// Returns the cost of a change above that of the present joint: another joint in its place, an unloading joint with its link, or both.
+    /// `drive` says that the joint is driven.
     #[must_use]
     pub fn change(
         &self,

@@ -52,8 +52,8 @@ fn jaws(mechanism: &Mechanism, state: StateId, body: LinkId) -> Vec<LinkId> {
     jaws
 }
 
-/// What is to be held in a state: each link that the file calls an object, where `objects` are asked for, and each that the
-/// search is to hold, if the state joins it to the mechanism.
+/// Returns the bodies to be held in a state. These are the objects of the file, if `objects` is set, and the links that the search holds,
+/// if the state joins them to the mechanism.
 #[must_use]
 pub(crate) fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Vec<Grasp> {
     let wanted = |l: &LinkId| {
@@ -71,7 +71,7 @@ pub(crate) fn grasps(mechanism: &Mechanism, state: StateId, objects: bool) -> Ve
 /// The bodies that a motion moves against all the links that may hold them.
 ///
 /// # Errors
-/// Where a coordinate has no value in the field.
+/// Returns an error if a coordinate has no value in the field.
 ///
 /// # Complexity
 /// One elimination of J of the state.

@@ -1,4 +1,4 @@
-//! What a redesign must keep: the motions of the outputs together with the rates of the drives.
+//! The condition on the motion of a redesign: the outputs together with the rates of the drives.
 //!
 //! A redesign works if its outputs and its drives move together as they do in the mechanism as built. The motions of the outputs alone are
 //! not enough: a bush in place of a lead screw leaves the table its one motion, but the motor then spins without moving it.
@@ -12,18 +12,18 @@ pub use crate::search::question::conditions::Drives;
 use crate::search::question::conditions::{Conditions, SearchError};
 use std::sync::Arc;
 
-/// What must move as it does in the mechanism as built.
+/// The links and drives that must move as in the mechanism as built.
 #[derive(Debug)]
 pub struct Kept {
     /// The links, in ascending order.
     pub links: Vec<LinkId>,
-    /// A reduced basis of their present motion in the free state: the twists of the links one after the other, then the rates of the
-    /// drives of [`SearchSpec::drives`](crate::model::mechanism::SearchSpec::drives).
+    /// A reduced basis of their present motion in the free state: the twists of the links, then the rates of the drives of
+    /// [`SearchSpec::drives`](crate::model::mechanism::SearchSpec::drives).
     pub motion: Vec<Vec<Residue>>,
 }
 
 impl Kept {
-    /// Returns the links, and for each kept drive a link that stands for it; see [`Mechanism::drive_link`].
+    /// Returns the links, and for each kept drive the link that represents it; see [`Mechanism::drive_link`].
     #[must_use]
     pub(in crate::search) fn bodies(&self, mechanism: &Mechanism) -> Vec<LinkId> {
         let drives = (0..mechanism.kept_drives()).map(|d| mechanism.drive_link(d));
@@ -41,7 +41,7 @@ impl Followed {
     /// Returns the driven freedoms that matter under some conditions.
     ///
     /// # Errors
-    /// Where independent drives are asked for and there are none, or together with what they are not counted with.
+    /// Returns an error if independent drives are required and there are none, or if a condition excludes them.
     pub(super) fn new(mechanism: &Mechanism, conditions: &Conditions) -> Result<Self, SearchError> {
         let independent = conditions.drives == Drives::Independent;
         let freedoms = match conditions.drives {

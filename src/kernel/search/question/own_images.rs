@@ -9,17 +9,17 @@ use crate::model::mechanism::{Joint, JointId, LinkId, Mechanism, SearchSpec, Sta
 use crate::search::question::symmetry::check;
 use itertools::Itertools;
 
-/// Mirrors and turns that are proven or refused exactly, at most.
+/// Maximum number of mirrors and turns that are examined exactly.
 const TRIED: usize = 12;
-/// Joints of a mechanism that is looked at, at most.
+/// Maximum number of joints of an examined mechanism.
 const JOINTS: usize = 60;
 /// Most joints of one whose half turns are looked for: a pair of joints suggests one mirror and many half turns.
 const TURNED: usize = 16;
 /// Joints one of which a symmetry moves: those that it leaves in place are on its axis or in its plane.
 const FIRST: usize = 6;
-/// Steps of the search for the images of joints at one place, at most.
+/// Maximum number of steps of the search for the images of joints at one place.
 const STEPS: usize = 1_000;
-/// How far off images may be before they are looked at exactly, in the mechanism's size.
+/// Tolerance of images before they are examined exactly, relative to the mechanism's size.
 const NEAR: f64 = 1e-6;
 
 /// Returns the image of each joint; `None` if the mechanism has no symmetry.
@@ -127,7 +127,7 @@ fn suggested(
     mirrors.into_iter().map(|(mirror, _)| mirror).chain(turns)
 }
 
-/// A mechanism's joints as they are looked at for each candidate.
+/// The joints of a mechanism, prepared for comparison.
 struct ComparedJoints {
     spots: Vec<Spot>,
     /// Those that offer the same, by name, are of one kind.
@@ -228,8 +228,8 @@ impl PartialImages {
         std::iter::once(j).chain(others).collect()
     }
 
-    /// Returns these images with one of each joint that is left, from those near its place; none where links do not fit, or where
-    /// the steps run out.
+    /// Returns the completed images, each remaining joint with one near its place. Returns `None` if links do not fit, or if the steps run
+    /// out.
     ///
     /// # Complexity
     /// O(joints²) comparisons a step; one step a joint unless several joints are at one place.

@@ -1,5 +1,5 @@
-//! What an engineer prefers of redesigns that cost the same: the drive and the pivots in the frame stay as they are, and rods
-//! are given other ends before other joints are changed.
+//! The preference among redesigns of equal cost: the drive and the pivots in the frame stay, and the ends of rods change before other
+//! joints.
 //!
 //! A rod is the simplest part of a linkage: it is taken out and has its ends replaced without touching what it joins. A pivot in
 //! the frame carries its link over the whole width, and its bore is in the largest casting; the driven joint holds the motor.

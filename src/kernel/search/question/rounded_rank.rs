@@ -1,24 +1,23 @@
 //! Ranks of matrices whose numbers were rounded: what singular values decide, and what they do not.
 //!
-//! By Weyl's inequality no singular value is further from the true one than rounding moved the matrix. What is above that
-//! bound is there in truth; what is below it may be zero, and is taken for zero only where a wide gap says so.
+//! By Weyl's inequality, rounding moves no singular value further than it moved the matrix. Values above that bound are not zero. Values
+//! below it may be zero, and are treated as zero only if there is a wide gap.
 
-/// Relative to the largest, singular values below this are zero in double precision, whatever the digits.
+/// Singular values below this are zero in double precision, relative to the largest.
 const ROUND_OFF: f64 = 1e-11;
 /// Values this many times the tolerance are there in truth: a variant's joints may feel rounding more than the present ones.
 const NEAR: f64 = 4.0;
-/// A gap that tells zeros which rounding disturbed from values that are there.
+/// The ratio that separates zeros disturbed by rounding from nonzero values.
 const GAP: f64 = 1e3;
-/// Where it is not decided what the digits mean, values below this fraction of the largest may be left over from zero.
+/// If the meaning of the digits is not decided, values below this fraction of the largest may be zero.
 const LEFT_OVER: f64 = 1e-4;
 
-/// What is known of the numbers that a matrix is made of.
+/// The accuracy of the numbers of a matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Digits {
     /// What rounding can do to a singular value, relative to the largest.
     pub tolerance: f64,
-    /// Whether it is not even decided which rank the mechanism has as it is: then no small value is taken for zero, nor for
-    /// one that is there.
+    /// Whether even the rank of the present mechanism is not decided. Then small values are neither zero nor nonzero.
     pub undecided: bool,
 }
 
@@ -29,9 +28,9 @@ pub struct RankRange {
     pub least: usize,
     /// The most it can be.
     pub most: usize,
-    /// The smallest singular value above the tolerance, over the largest; 1 where none is.
+    /// The smallest singular value above the tolerance, over the largest; 1 if there is none.
     pub kept: f64,
-    /// The largest below it, over the largest; 0 where none is.
+    /// The largest singular value below the tolerance, over the largest; 0 if there is none.
     pub dropped: f64,
 }
 

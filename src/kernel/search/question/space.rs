@@ -12,7 +12,7 @@ use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::search::question::cost::CostTable;
 use num_bigint::BigUint;
 
-/// What a choice puts at the joints of its variable.
+/// A choice for the joints of a variable.
 #[derive(Debug, Clone)]
 pub struct Choice {
     /// Index into the joint's options; 0 is the present joint.
@@ -28,7 +28,7 @@ pub struct Choice {
     pub freedoms: u32,
     /// Number of changed joints and inserted unloading joints.
     pub changes: u32,
-    /// Cost above the present joint's, in thousandths.
+    /// Cost above that of the present joint, in thousandths.
     pub cost_milli: i64,
 }
 
@@ -70,7 +70,7 @@ impl Space {
     /// With `symmetric`, joints that are each other's images become one variable.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     pub fn new(
         exact: &ExactField,
         mechanism: &Mechanism,
@@ -203,7 +203,7 @@ fn choices(
 /// entry in the row of every coupling it is in, then the rate of its kept drive.
 ///
 /// # Errors
-/// Where a coordinate has no value in the number system.
+/// Returns an error if a coordinate has no value in the number system.
 pub(in crate::search) fn columns<S: Scalars>(
     s: &S,
     motion: &MotionSpace<S::Number>,
@@ -237,7 +237,7 @@ pub(in crate::search) fn columns<S: Scalars>(
 /// is the twist of no freedom that may be coupled.
 ///
 /// # Errors
-/// Where a coordinate has no value in the number system.
+/// Returns an error if a coordinate has no value in the number system.
 pub(in crate::search) fn coupled<S: Scalars>(
     s: &S,
     mechanism: &Mechanism,

@@ -65,7 +65,7 @@ pub enum MirrorError {
         first: String,
         /// Its image.
         second: String,
-        /// What is put there.
+        /// The option.
         option: String,
         /// How far it is off.
         off: String,
@@ -90,8 +90,7 @@ pub enum MirrorError {
     Exact(#[from] ExactError),
 }
 
-/// Refuses kept drives that the symmetry does not carry over to kept drives: of two variants that are images of each other one
-/// could then keep the drives alone.
+/// Refuses kept drives whose images are not kept drives: of two variants that are images of each other, only one might keep the drives.
 pub(in crate::search) fn check_drives(mechanism: &Mechanism) -> Result<(), MirrorError> {
     for drive in &mechanism.search.drives {
         let image = mechanism.search.image(drive.joint);
@@ -103,10 +102,10 @@ pub(in crate::search) fn check_drives(mechanism: &Mechanism) -> Result<(), Mirro
     Ok(())
 }
 
-/// Refuses a mechanism that its mirror pairs do not carry over to itself, in the free state and in `state`.
+/// Refuses a mechanism that its mirror pairs do not map to itself, in the free state and in `state`.
 ///
 /// # Errors
-/// Where they do not.
+/// Returns an error if they do not.
 pub(in crate::search) fn check(
     exact: &ExactField,
     mechanism: &Mechanism,
@@ -206,8 +205,7 @@ fn by_carrier(
     Ok(())
 }
 
-/// Refuses pairs that do not carry links over to links: the frame is its own image, and what joins two links joins their
-/// images.
+/// Refuses pairs that do not map links to links: the frame is its own image, and a joint of two links maps to a joint of their images.
 fn links(mechanism: &Mechanism, joints: &[JointId]) -> Result<(), MirrorError> {
     let mut to: Vec<Option<LinkId>> = vec![None; mechanism.links.len()];
     to[mechanism.frame().index()] = Some(mechanism.frame());

@@ -1,10 +1,10 @@
 //! The columns of every choice along the motion of the mechanism as built, for counts that hold beyond the drawn pose.
 //!
-//! The motion of the present joints is a power series in one variable t over the prime field. A redesign that keeps the motion in the
-//! drawn pose alone does so by a special position, and loses it to some order of t. Along the motion each freedom's column is a series
-//! cut off at t³. Its multiples by 1, t and t² are vectors over the field, and the span of all of them for a variant has a pivot at every
-//! coordinate of the contours where σ = 0 in the drawn pose. What is left in the coordinates of outputs and drives is then exact to
-//! second order. First order is not enough: a symmetric pose shows nothing to first order.
+//! The motion of the present joints is a power series in one variable t over the prime field. A redesign that keeps the motion in the drawn
+//! pose only by a special position loses it at some order of t. Along the motion, the column of each freedom is a series up to t². Its
+//! multiples by 1, t and t² are vectors over the field. If σ = 0 in the drawn pose, the span of all vectors of a variant has a pivot at
+//! every coordinate of the contours. The rest, in the coordinates of outputs and drives, is exact to second order. First order is not
+//! enough: a symmetric pose shows nothing to first order.
 //!
 //! A variant that is excluded is proven to lose the motion, for the motion as followed. One that is kept keeps it to second order.
 
@@ -25,7 +25,6 @@ use crate::rank::finite::higher_order::HigherOrder;
 use crate::search::question::conditions::Conditions;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Choice, Space, choice_name, coupled};
-use crate::search::reduce::plane_split::Model;
 use crate::search::reduce::self_stress_space::ClosingRows;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
@@ -37,7 +36,7 @@ pub(in crate::search) const ORDER: usize = 3;
 /// The order to which the motion itself is followed, to see that the pose is neither singular nor shaky.
 const FOLLOWED: usize = 8;
 
-/// Why counts are those of the drawn pose alone.
+/// The reason why counts are those of the drawn pose alone.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PoseOnly {
@@ -92,8 +91,6 @@ pub(in crate::search) type ColumnSeries = Vec<Vec<Residue>>;
 /// The columns of every choice along the motion.
 #[derive(Debug)]
 pub(in crate::search) struct Throughout {
-    /// All rows of the closure equations: out of the drawn pose the parts of a plane need not stay apart.
-    pub(in crate::search) model: Model,
     /// `[variable][choice]`: the joint and the series of each freedom.
     columns: Vec<Vec<Vec<(JointId, ColumnSeries)>>>,
 }
@@ -102,10 +99,10 @@ pub(in crate::search) struct Throughout {
 pub(in crate::search) type Followed = Result<Throughout, PoseOnly>;
 
 impl Throughout {
-    /// Returns the columns of the choices of a space along a random direction of the present motion, drawn from the prime.
+    /// Returns the columns of the choices of a space along a random direction of the present motion. The prime is the seed.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
     /// One expansion of the contours, one elimination of J, and O(m³) field operations for each freedom of each choice.
@@ -147,10 +144,7 @@ impl Throughout {
             }
             columns.push(of_choices);
         }
-        let out = Throughout {
-            model: Model::whole(space),
-            columns,
-        };
+        let out = Throughout { columns };
         let rows = ClosingRows::free(mechanism, space.dim, contours, Some(kept));
         Ok(if out.is_regular(exact.field(), &rows) {
             Ok(out)
@@ -183,7 +177,7 @@ impl Throughout {
     }
 }
 
-/// Returns why conditions ask about the drawn pose alone; `None` where they ask for more.
+/// Returns the reason why only the drawn pose is asked about; `None` if the whole motion is.
 fn not_asked(conditions: &Conditions) -> Option<PoseOnly> {
     let all = [
         (!conditions.throughout, PoseOnly::Asked),
@@ -284,7 +278,7 @@ impl Motion {
         }))
     }
 
-    /// Returns the columns of a choice at a joint, one a freedom; `None` where it does not follow the present joint.
+    /// Returns the columns of a choice at a joint, one for each freedom; `None` if it cannot follow the present joint.
     fn columns(
         &self,
         exact: &ExactField,
@@ -332,8 +326,8 @@ impl Motion {
         Ok(Some(out))
     }
 
-    /// Returns the coordinates of freedoms in series with which they move as the present joint does, one order of t after the other;
-    /// `None` where they cannot. An unloading joint rests as far as the others move alike.
+    /// Returns the coordinates of freedoms in series that move as the present joint does, by order of t; `None` if there are none. An
+    /// unloading joint rests if the others suffice.
     fn coordinates(&self, passed: &[InSeries], goal: &DisplacementSeries) -> Option<Vec<Series>> {
         let f = self.field;
         let mut q = vec![vec![0; ORDER]; passed.len()];
@@ -356,7 +350,7 @@ impl Motion {
     }
 }
 
-/// Returns factors with which some twists add up to another, 0 for one that depends on those before it; `None` where there are none.
+/// Returns factors with which some twists add up to another, 0 for a twist that depends on those before it; `None` if there are none.
 fn combination(f: Field, twists: &[&Twist<Residue>], sum: &Twist<Residue>) -> Option<Vec<Residue>> {
     let n = twists.len();
     // Behind each twist its unit, negative: what reduces to nothing carries its factors there.

@@ -1,8 +1,8 @@
 //! From which variable to which a coordinate is in use.
 //!
-//! Which coordinates a space has is free, and so is how many of them a node must be told in. Where no two coordinates have the same
-//! last vector that reaches them, nor the same first, each is in use as shortly as can be: between two variables there are then as
-//! many as there are dimensions that the variables before and those after both reach, and no choice of coordinates has fewer.
+//! The coordinates of a space can be chosen freely, and they determine how many coordinates a node has. If no two coordinates have the same
+//! last vector that reaches them, nor the same first one, each lifetime is as short as possible. The number of live coordinates between two
+//! variables is then the dimension of the space that the variables before and after both reach. No choice of coordinates has fewer.
 //!
 //! # Sources
 //! Kschischang & Sorokine, "On the trellis structure of block codes", IEEE Trans. Inf. Theory 41 (1995): the trellis-oriented

@@ -1,10 +1,9 @@
-//! What choices add to the present joints, in the space dual to the present self-stresses.
+//! The vectors that choices add to the present joints, in the space dual to the present self-stresses.
 //!
-//! Every choice lets its joint do all that the present one does, so what the present joints close is closed in every variant.
-//! What is left of the closure equations without it has a dimension for each self-stress of the mechanism as it is: 11 for the
-//! ten-link gripper, whose equations have 24 rows. A variant has no redundant constraint if the motions that it adds span that
-//! space. The motions of kept links are further coordinates, of which the present motions are taken out as well: a variant keeps
-//! them if it adds nothing that closes every contour and moves a kept link.
+//! Every choice allows the motions of the present joint, so every variant closes what the present joints close. The rest of the closure
+//! equations has a dimension for each self-stress of the present mechanism: 11 for the ten-link gripper, whose equations have 24 rows. A
+//! variant has no redundant constraint if its added motions span that space. The motions of kept links are further coordinates, modulo the
+//! present motions. A variant keeps them if no added motion closes every contour and moves a kept link.
 //!
 //! The coordinates are ordered by the last variable that reaches them: what only the variables up to one reach comes before what
 //! later ones reach too, so that all that is forgotten after a variable stands in front. Each starts as late as can be.
@@ -18,13 +17,13 @@ use crate::motion::displacement_series::multiples;
 use crate::search::question::kept::Kept;
 use crate::search::question::space::{Space, Variable};
 use crate::search::reduce::lifetimes::{AddedBy, Lifetime, shortened};
-use std::borrow::Borrow;
+use std::borrow::{Borrow, Cow};
 use std::ops::Range;
 
 /// A vector of the added motions of a choice.
 type Added = Vec<Residue>;
 
-/// What the choices of some variables add, in coordinates fit for their order.
+/// The vectors that the choices of some variables add, in coordinates for their order.
 #[derive(Debug)]
 pub(in crate::search) struct SelfStressSpace {
     /// For each variable in order and each of its choices, independent vectors of what it adds: the coordinates of the contours, then
@@ -40,11 +39,11 @@ pub(in crate::search) struct SelfStressSpace {
     pub(in crate::search) moves_kept: bool,
 }
 
-/// Where the motion of each joint goes: rows of the contours it is in, of its couplings, and of the links it carries.
+/// The rows to which the motion of each joint contributes: its contours, its couplings, and the links it moves.
 pub(in crate::search) struct ClosingRows<'m> {
     mechanism: &'m Mechanism,
     dim: usize,
-    contours: &'m [Contour],
+    contours: Cow<'m, [Contour]>,
     /// Couplings of the state, by their numbers.
     couplings: Vec<usize>,
     /// The joints on the way to each kept link, or from one link to another.
@@ -58,7 +57,7 @@ impl<'m> ClosingRows<'m> {
     pub(in crate::search) fn free(
         mechanism: &'m Mechanism,
         dim: usize,
-        contours: &'m [Contour],
+        contours: impl Into<Cow<'m, [Contour]>>,
         kept: Option<&Kept>,
     ) -> Self {
         let tree = spanning_tree(mechanism, StateId::FREE);
@@ -77,7 +76,7 @@ impl<'m> ClosingRows<'m> {
         mechanism: &'m Mechanism,
         dim: usize,
         state: StateId,
-        contours: &'m [Contour],
+        contours: impl Into<Cow<'m, [Contour]>>,
         paths: Vec<Vec<(JointId, bool)>>,
     ) -> Self {
         let present: Vec<JointId> = mechanism.joints_in(state).collect();
@@ -88,7 +87,7 @@ impl<'m> ClosingRows<'m> {
         ClosingRows {
             mechanism,
             dim,
-            contours,
+            contours: contours.into(),
             couplings: couplings.collect(),
             paths,
             keeps_drives: false,
@@ -150,39 +149,56 @@ impl<'m> ClosingRows<'m> {
         joint: JointId,
         twist: &[Residue],
     ) -> Vec<Residue> {
-        let (d, closing) = (self.dim, self.closing());
-        let mut out = vec![0; closing + self.kept()];
-        let mut put = |at: usize, forward: bool| {
-            f.accumulate(&mut out[at..at + d], &twist[..d], forward);
-        };
-        for (i, contour) in self.contours.iter().enumerate() {
-            if let Some(forward) = contour.direction(joint) {
-                put(i * d, forward);
-            }
-        }
-        for (i, path) in self.paths.iter().enumerate() {
-            if let Some((_, forward)) = path.iter().find(|(j, _)| *j == joint) {
-                put(closing + i * d, *forward);
-            }
-        }
-        for (i, (q, _)) in self.mechanism.couplings_of(joint).enumerate() {
-            if let Some(at) = self.couplings.iter().position(|&x| x == q) {
-                let at = self.contours.len() * d + at;
-                out[at] = f.add(out[at], twist[d + i]);
-            }
-        }
-        if let Some(i) = self.mechanism.drive_at(joint) {
-            let first = if self.mechanism.search.locks_drives {
-                Some(self.contours.len() * d + self.couplings.len())
-            } else {
-                self.keeps_drives.then_some(closing + self.paths.len() * d)
-            };
-            if let Some(first) = first {
-                out[first + i] = twist[twist.len() - 1];
+        let mut out = vec![0; self.closing() + self.kept()];
+        for (at, part) in self.parts(joint) {
+            match part {
+                Part::Twist { forward } => {
+                    let d = self.dim;
+                    f.accumulate(&mut out[at..at + d], &twist[..d], forward);
+                }
+                Part::Rate(rate) => out[at] = f.add(out[at], twist[self.dim + rate]),
             }
         }
         out
     }
+
+    /// Returns the rows that the motion of a joint goes to, each with what goes there.
+    pub(in crate::search) fn parts(&self, joint: JointId) -> Vec<(usize, Part)> {
+        let (d, closing) = (self.dim, self.closing());
+        let couplings = self.contours.len() * d;
+        let contours = self.contours.iter().enumerate();
+        let contours = contours.filter_map(|(i, c)| Some((i * d, c.direction(joint)?)));
+        let paths = self.paths.iter().enumerate().filter_map(|(i, path)| {
+            let (_, forward) = path.iter().find(|(j, _)| *j == joint)?;
+            Some((closing + i * d, *forward))
+        });
+        let twists = contours.chain(paths);
+        let mut out: Vec<(usize, Part)> = twists
+            .map(|(at, forward)| (at, Part::Twist { forward }))
+            .collect();
+        for (i, (q, _)) in self.mechanism.couplings_of(joint).enumerate() {
+            let at = self.couplings.iter().position(|&x| x == q);
+            out.extend(at.map(|at| (couplings + at, Part::Rate(i))));
+        }
+        if let Some(drive) = self.mechanism.drive_at(joint) {
+            let first = if self.mechanism.search.locks_drives {
+                Some(couplings + self.couplings.len())
+            } else {
+                self.keeps_drives.then_some(closing + self.paths.len() * d)
+            };
+            let rate = Part::Rate(self.mechanism.rates_of(joint) - 1);
+            out.extend(first.map(|first| (first + drive, rate)));
+        }
+        out
+    }
+}
+
+/// The part of a joint's motion that contributes to a row.
+pub(in crate::search) enum Part {
+    /// The twist, to this row and those after it.
+    Twist { forward: bool },
+    /// One of the rates behind it.
+    Rate(usize),
 }
 
 /// Vectors as combinations of given ones.
@@ -218,7 +234,7 @@ impl Basis {
     }
 }
 
-/// What of vectors is not what the present joints do.
+/// Reduces vectors modulo the motions of the present joints.
 struct BesidePresent {
     present: Echelon,
     width: usize,
@@ -227,7 +243,7 @@ struct BesidePresent {
 }
 
 impl BesidePresent {
-    /// Of what the present joints do, in vectors of a width.
+    /// Prepares the reduction, for vectors of a width.
     fn new(field: Field, all: impl Iterator<Item = Added>, width: usize) -> BesidePresent {
         let present = Echelon::of(field, all);
         let pivots = present.pivots();
@@ -239,7 +255,7 @@ impl BesidePresent {
         }
     }
 
-    /// What is left of the units of some coordinates.
+    /// Returns the reduced unit vectors of some coordinates.
     fn units(&self, field: Field, coordinates: Range<usize>) -> Echelon {
         let units = coordinates.map(|i| {
             let mut unit = vec![0; self.width];
@@ -249,7 +265,7 @@ impl BesidePresent {
         Echelon::of(field, units)
     }
 
-    /// What is left of a vector.
+    /// Returns a reduced vector.
     fn left(&self, mut column: Vec<Residue>) -> Vec<Residue> {
         self.present.reduce(&mut column);
         self.open.iter().map(|&i| column[i]).collect()
@@ -264,8 +280,8 @@ struct Reached {
 }
 
 impl Reached {
-    /// Of what the choices of variables add, its coordinates from `first` on, beyond what is known: from the last variable on, what
-    /// each is the last to reach.
+    /// Returns the vectors that choices of variables add beyond `known`, in the coordinates from `first` on. Starting at the last variable,
+    /// each vector is listed with the last variable that reaches it.
     fn last(added: &[Vec<Vec<Added>>], first: usize, mut known: Echelon) -> Reached {
         let mut out = Reached::default();
         for (t, choices) in added.iter().enumerate().rev() {

@@ -3,7 +3,7 @@
 use crate::format::grouped;
 use crate::score::outcome::Outcome;
 use crate::search::answer::counts::Counts;
-use crate::search::numeric::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
+use crate::search::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
 use crate::view::span;
 use num_bigint::BigUint;
 use num_traits::Zero;

@@ -8,7 +8,7 @@ use ozols::score::outcome::Outcome;
 use ozols::score::request::{Check, JointOptions, List, Request};
 use ozols::search::answer::counts::Counts;
 use ozols::search::answer::k_best::Assignment;
-use ozols::search::numeric::at_tolerance::WHOLE;
+use ozols::search::at_tolerance::WHOLE;
 use ozols::search::question::rounded_rank::Digits;
 
 /// Options that every joint may take.
@@ -147,7 +147,7 @@ fn every_condition_means_the_same_by_singular_values() {
         assert_eq!(found.admissible.sure, truth.admissible, "{request:?}");
         assert!(found.is_whole() && found.admissible.is_narrow());
         assert_eq!(
-            found.list(&search).count().to_string(),
+            found.list().count().to_string(),
             truth.admissible.to_string()
         );
     }
@@ -183,7 +183,7 @@ fn a_large_space_is_sampled_and_its_cheapest_are_found() {
         );
     }
     let cost = |v: &Assignment| search.steps.milli(v.key.cost());
-    let cheapest: Vec<i64> = found.list(&search).take(5).map(|v| cost(&v)).collect();
+    let cheapest: Vec<i64> = found.list().take(5).map(|v| cost(&v)).collect();
     let exact: Vec<i64> = truth.variants().map(|v| v.cost_milli()).collect();
     assert_eq!(cheapest, exact);
     assert!(sampled.all_below.unwrap() >= cheapest[4]);

@@ -1,8 +1,8 @@
 //! About how many variants there are, by samples of a larger set that is counted.
 //!
-//! A diagram with every variant, and some that are none, says how many there are at most. Each of its ways is drawn with the same
-//! chance, and its rank says whether it is a variant: the share of those that are follows the binomial distribution, whatever the
-//! mechanism, so that its confidence interval holds for rare variants, too.
+//! A diagram with every variant, and some more, gives an upper bound. Each of its paths is drawn with the same probability, and a rank
+//! shows whether it is a variant. The share of variants follows the binomial distribution, so the confidence interval also holds for rare
+//! variants.
 //!
 //! # Sources
 //! Clopper & Pearson, "The use of confidence or fiducial limits illustrated in the case of the binomial", Biometrika 26 (1934).
@@ -19,9 +19,9 @@ use rayon::prelude::*;
 
 /// Samples drawn first, which say how many more are needed.
 const PILOT: usize = 1_000;
-/// Samples drawn then, at least and at most.
+/// Minimum and maximum number of samples drawn after the pilot.
 const SAMPLES: [usize; 2] = [10_000, 200_000];
-/// Samples looked at before it is asked whether all is cancelled.
+/// Number of samples between two checks for cancellation.
 const BATCH: usize = 500;
 /// Standard deviations on either side of the mean that hold a normal variable with a chance of 95 %.
 const NORMAL: f64 = 1.96;
@@ -43,8 +43,8 @@ pub(in crate::search) struct SetSamples<'a> {
 }
 
 impl<'a> SetSamples<'a> {
-    /// Draws the first samples of a set; `filter` applies the conditions on mobility and changes, too. None where it was cancelled, where
-    /// memory does not suffice, and where the set is too large for a floating-point number.
+    /// Draws the first samples of a set. `filter` also applies the conditions on mobility and changes. Returns `None` if cancelled, if
+    /// memory does not suffice, or if the set is too large for a floating-point number.
     ///
     /// # Complexity
     /// O(samples · n · s²) field operations for n added freedoms and s self-stresses.
@@ -73,7 +73,7 @@ impl<'a> SetSamples<'a> {
         Some(out)
     }
 
-    /// How many of so many samples are wanted, and how many were drawn: none of an empty set.
+    /// Draws samples. Returns how many were drawn and how many of them are wanted; none are drawn from an empty set.
     fn draw(
         &mut self,
         wanted: usize,
@@ -105,7 +105,7 @@ impl<'a> SetSamples<'a> {
         needed.clamp(SAMPLES[0], SAMPLES[1])
     }
 
-    /// Estimates how many variants there are by samples drawn afresh, as the first have said how many. None where it was cancelled.
+    /// Estimates the number of variants from new samples, as many as the pilot requires. Returns `None` if cancelled.
     pub(in crate::search) fn estimate(
         mut self,
         cancelled: &(dyn Fn() -> bool + Sync),
@@ -129,7 +129,7 @@ fn number(of: usize) -> f64 {
     of as f64
 }
 
-/// The least and the largest chance at which so many of the samples, or more or fewer of them, are not rarer than [`TAIL`].
+/// Returns the smallest and the largest probability for which the number found, or a more extreme one, is not rarer than [`TAIL`].
 fn interval(samples: usize, found: usize) -> [f64; 2] {
     let low = match found {
         0 => 0.0,
@@ -142,7 +142,7 @@ fn interval(samples: usize, found: usize) -> [f64; 2] {
     [low, high]
 }
 
-/// Where a test that holds at 0 and not at 1 ends to hold.
+/// Returns the point where a test that holds at 0 and not at 1 changes.
 fn bisected(holds: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..60 {

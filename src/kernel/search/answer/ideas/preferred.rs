@@ -1,5 +1,5 @@
-//! Of the variants that an idea stands for the one that is shown: of those as cheap as the cheapest the one with the same change
-//! at most of the joints that are each other's images, then the one with least weight of places.
+//! Selects the variant that an idea shows. Among the cheapest variants it prefers the one with the same change at most pairs of joints that
+//! are images of each other, then the one with the least weight of places.
 
 use crate::search::answer::freedom_patterns::{Pattern, Patterns};
 use crate::search::answer::k_best::Assignment;
@@ -9,9 +9,9 @@ use crate::search::diagram::{DEAD, Diagram};
 use crate::search::question::Question;
 use hashbrown::HashMap;
 
-/// Variants of an idea that are compared, at most.
+/// Maximum number of variants of an idea that are compared.
 const COMPARED: usize = 4096;
-/// Beginnings that are looked at for them, at most.
+/// Maximum number of partial variants that are examined for them.
 const LOOKED: usize = 1 << 16;
 
 /// The variant that is shown for the idea of one that is among the cheapest of it, which it is where there are too many to look at.
@@ -57,7 +57,7 @@ pub(super) fn preferred(
 /// How many joints are unlike their images, the weight of places, W, and the number of changes.
 type Rank = (usize, u64, i64, u32);
 
-/// What a choice takes of a pattern, but for the zeros.
+/// Returns the nonzero entries of a choice's pattern.
 fn some(takes: &Pattern) -> Vec<(usize, u8)> {
     let all = takes.iter().copied().enumerate();
     all.filter(|(_, n)| *n > 0).collect()
@@ -71,13 +71,13 @@ struct Members<'a> {
     weights: &'a [u64],
     /// `[variable][choice]`: which numbers of a pattern it takes from, and how much.
     takes: Vec<Vec<Vec<(usize, u8)>>>,
-    /// What comes after each layer can take no more than so much of a pattern.
+    /// The largest pattern that the layers after each layer can add.
     to_come: Vec<Pattern>,
     /// From a node with some of the pattern left, the least cost of a way to the end.
     least: HashMap<(usize, u32), HashMap<Pattern, Option<u64>>>,
     /// How many of these there are.
     states: usize,
-    /// What is left of the pattern here, what was chosen up to here, and the sum of its steps.
+    /// The rest of the pattern at this point, the choices so far, and the sum of their steps.
     left: Pattern,
     choices: Vec<usize>,
     sum: Key,
@@ -87,7 +87,7 @@ struct Members<'a> {
 }
 
 impl Members<'_> {
-    /// What is less of a preferred variant.
+    /// Returns the properties by which variants are compared; less is preferred.
     fn rank(&self, choices: &[usize], key: Key) -> Rank {
         let changed = choices.iter().zip(self.weights).filter(|(c, _)| **c != 0);
         let weight = changed.map(|(_, weight)| weight).sum();
@@ -99,8 +99,8 @@ impl Members<'_> {
         )
     }
 
-    /// Where a choice leads from a node, and its cost, with its share taken from what is left of the pattern, if it has one
-    /// and what comes later can take the rest.
+    /// Takes a choice at a node and subtracts its freedoms from the rest of the pattern. Returns the next node and the cost, or `None` if
+    /// the choice does not fit or later choices cannot add the rest.
     fn enter(&mut self, depth: usize, node: u32, choice: usize) -> Option<(u32, u64)> {
         let layer = &self.diagram.layers[depth];
         let to = layer.edges[node as usize * layer.choices + choice];

@@ -1,4 +1,4 @@
-//! What a search by singular values found: brackets of counts, and the sure variants in few bytes.
+//! The result of a search by singular values: ranges of counts, and the certain variants.
 
 use super::judge::{Judged, Standing};
 use crate::search::answer::counts::Counts;
@@ -12,8 +12,8 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
 
-/// Variants that are looked at by one thread before it asks whether to end.
-pub(super) const BLOCK: usize = 64;
+/// The number of standard deviations that contain 95 % of a normal distribution.
+const NORMAL_95: f64 = 1.959_963_985;
 
 /// How many variants meet a condition.
 #[derive(Debug, Clone, Default)]
@@ -22,7 +22,7 @@ pub struct Bracket {
     pub sure: Counts,
     /// Those of which the digits do not say, each under the figures it has if it does.
     pub doubtful: Counts,
-    /// The most there can be: the sure and the doubtful ones, and those not looked at.
+    /// The maximum: certain and doubtful variants, and those not examined.
     pub most: BigUint,
 }
 
@@ -34,12 +34,12 @@ impl Bracket {
     }
 }
 
-/// What was found by singular values.
+/// The result of a search by singular values.
 #[derive(Debug, Clone)]
 pub struct AtTolerance {
-    /// What the digits tell.
+    /// The accuracy of the digits.
     pub digits: Digits,
-    /// How many variants were looked at.
+    /// The number of variants examined.
     pub looked: u64,
     /// Those with few enough redundant constraints.
     pub determinate: Bracket,
@@ -47,62 +47,33 @@ pub struct AtTolerance {
     pub admissible: Bracket,
     /// Counts of the sure admissible ones by cost in thousandths.
     pub by_cost: BTreeMap<i64, BigUint>,
-    /// What a sample says, where not all were looked at.
+    /// The result of a sample, if not all variants were examined.
     pub sampled: Option<Sampled>,
     /// Whether it was ended early.
     pub stop: Stop,
     /// The sure admissible ones, cheapest first.
-    pub(super) list: VariantList,
-}
-
-/// Variants in few bytes.
-#[derive(Debug, Clone)]
-pub(super) enum VariantList {
-    /// By number, where every variant has one.
-    Numbers(Vec<(Key, u32)>),
-    Variants(Vec<Assignment>),
+    pub(super) list: Vec<Assignment>,
 }
 
 impl AtTolerance {
-    /// Whether every variant was looked at.
+    /// Returns true if every variant was examined.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.sampled.is_none() && self.stop == Stop::Exhausted
     }
 
-    /// The sure admissible variants, cheapest first, then by W, then by changes; of a space not looked at whole the first of
-    /// them.
-    pub fn list<'a>(&'a self, question: &'a Question) -> Box<dyn Iterator<Item = Assignment> + 'a> {
-        match &self.list {
-            VariantList::Numbers(all) => Box::new(all.iter().map(|&(key, number)| Assignment {
-                choices: choices(question, number),
-                key,
-            })),
-            VariantList::Variants(all) => Box::new(all.iter().cloned()),
-        }
+    /// Returns the certainly admissible variants, cheapest first, then by W, then by changes. If the space was not examined completely,
+    /// returns the first of them.
+    pub fn list(&self) -> impl Iterator<Item = Assignment> {
+        self.list.iter().cloned()
     }
 
-    /// Variants of the list drawn at random without end, each with the same chance; of a space not looked at whole those
-    /// are the cheap ones.
-    pub fn drawn<'a>(
-        &'a self,
-        question: &'a Question,
-        seed: u64,
-    ) -> impl Iterator<Item = Assignment> + 'a {
+    /// Returns an endless sample of the list, each variant with the same probability. If the space was not examined completely, these are
+    /// the cheap variants.
+    pub fn drawn(&self, seed: u64) -> impl Iterator<Item = Assignment> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        std::iter::from_fn(move || match &self.list {
-            VariantList::Numbers(all) if !all.is_empty() => {
-                let (key, number) = all[below(&mut random, all.len())];
-                Some(Assignment {
-                    choices: choices(question, number),
-                    key,
-                })
-            }
-            VariantList::Variants(all) if !all.is_empty() => {
-                Some(all[below(&mut random, all.len())].clone())
-            }
-            _ => None,
-        })
+        let any = move || self.list.get(below(&mut random, self.list.len())).cloned();
+        std::iter::from_fn(any)
     }
 }
 
@@ -144,17 +115,6 @@ impl Met {
         }
     }
 
-    pub(super) fn merge(&mut self, other: Met) {
-        self.looked += other.looked;
-        let theirs = other.determinate.into_iter().chain(other.admissible);
-        let ours = self.determinate.iter_mut().chain(&mut self.admissible);
-        for (own, other) in ours.zip(theirs) {
-            for (key, n) in other {
-                *own.entry(key).or_default() += n;
-            }
-        }
-    }
-
     /// Brackets of the determinate and of the admissible, among `size` variants.
     pub(super) fn brackets(&self, question: &Question, size: &BigUint) -> [Bracket; 2] {
         let unseen = size - BigUint::from(self.looked).min(size.clone());
@@ -185,23 +145,45 @@ fn counts(question: &Question, all: &BTreeMap<Key, u64>) -> Counts {
     out
 }
 
-/// The order of lists: cheapest first, then by W, then by changes.
-pub(super) fn order(question: &Question, key: Key) -> (u64, i64, u32, Key) {
-    (key.cost(), question.mobility(key), key.changes(), key)
-}
-
 /// A share of the variants, from a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
     /// The share found.
     pub mean: f64,
-    /// In 95 of 100 samples the true share is at least this, doubtful variants left out,
+    /// The lower end of the 95 % confidence interval, without doubtful variants.
     pub low: f64,
     /// and at most this, doubtful ones taken in.
     pub high: f64,
 }
 
-/// What a sample says of a space that was not looked at whole.
+impl Share {
+    /// Returns the share of those found in a sample, with Wilson's interval (Journal of the American Statistical Association 22, 1927), which
+    /// holds for small numbers too.
+    #[allow(clippy::cast_precision_loss, reason = "samples are small")]
+    pub(super) fn of(sure: usize, may: usize, of: usize) -> Share {
+        let n = of as f64;
+        if of == 0 {
+            return Share {
+                mean: 0.0,
+                low: 0.0,
+                high: 1.0,
+            };
+        }
+        let z = NORMAL_95;
+        let bound = |found: usize, sign: f64| {
+            let p = found as f64 / n;
+            let spread = (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
+            (p + z * z / (2.0 * n) + sign * z * spread) / (1.0 + z * z / n)
+        };
+        Share {
+            mean: sure as f64 / n,
+            low: if sure == 0 { 0.0 } else { bound(sure, -1.0) },
+            high: if may == of { 1.0 } else { bound(may, 1.0) },
+        }
+    }
+}
+
+/// The result of a sample of a space that was not examined completely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled {
     /// Variants drawn, each with the same chance, with repetition.
@@ -212,9 +194,9 @@ pub struct Sampled {
     pub determinate: Share,
     /// The admissible ones.
     pub admissible: Share,
-    /// Variants looked at in order of cost.
+    /// The number of variants examined in order of cost.
     pub in_order: usize,
-    /// The cost in thousandths below which every variant was looked at; none where costs cannot be told apart so finely.
+    /// The cost in thousandths below which every variant was examined; `None` if memory does not suffice for the order.
     pub all_below: Option<i64>,
 }
 
@@ -234,5 +216,23 @@ pub(in crate::search) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
         if x < fair {
             return usize::try_from(x % n).unwrap_or(0);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Share;
+
+    #[test]
+    fn the_interval_is_wilsons() {
+        // Wilson's interval of 10 in 100, worked out by hand: 0.0552 to 0.1744.
+        let s = Share::of(10, 10, 100);
+        assert!(
+            (s.low - 0.0552).abs() < 1e-4 && (s.high - 0.1744).abs() < 1e-4,
+            "{s:?}"
+        );
+        let none = Share::of(0, 0, 20_000);
+        assert!(none.low == 0.0 && none.high < 2e-4);
+        assert_eq!(Share::of(0, 0, 0).high, 1.0);
     }
 }

@@ -1,7 +1,5 @@
-//! What a searched state makes of a variant, by singular values: external and harmful redundant constraints, and whether
-//! bodies are held.
+//! A variant in the searched state by singular values: external and harmful redundant constraints, and whether bodies are held.
 
-use super::answer::Answer;
 use crate::closure::Closure;
 use crate::geom::Reals;
 use crate::model::joint_type::{Freedom, JointType};
@@ -13,6 +11,33 @@ use crate::search::question::grasp::Grasp;
 use crate::search::question::rounded_rank::{Digits, RankRange};
 use ozols_dense::{Matrix, singular_values};
 
+/// Whether a condition is met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Answer {
+    No,
+    Perhaps,
+    Yes,
+}
+
+impl Answer {
+    /// From whether it is for sure, and whether it may be.
+    pub(super) fn of(sure: bool, may: bool) -> Answer {
+        match (sure, may) {
+            (true, _) => Answer::Yes,
+            (false, true) => Answer::Perhaps,
+            (false, false) => Answer::No,
+        }
+    }
+
+    pub(super) fn and(self, other: Answer) -> Answer {
+        match (self, other) {
+            (Answer::No, _) | (_, Answer::No) => Answer::No,
+            (Answer::Yes, Answer::Yes) => Answer::Yes,
+            _ => Answer::Perhaps,
+        }
+    }
+}
+
 /// All freedoms of a body.
 const ALL: [Freedom; 6] = [
     Freedom::Rx,
@@ -23,7 +48,7 @@ const ALL: [Freedom; 6] = [
     Freedom::Tz,
 ];
 
-/// What is seen of a variant in a state; the least and the most of each figure.
+/// The figures of a variant in a state, each with its minimum and maximum.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InStateSeen {
     external: [i32; 2],
@@ -32,7 +57,7 @@ pub(super) struct InStateSeen {
 }
 
 impl InStateSeen {
-    /// Of a variant as a mechanism; `None` where the arithmetic fails.
+    /// Examines a variant as a mechanism. Returns `None` if the arithmetic fails.
     ///
     /// A self-stress is harmless where it does no work in any motion that would take harm away: the ranks of J with these
     /// motions added and without them differ by the number of harmful ones.

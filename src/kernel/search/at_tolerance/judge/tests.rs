@@ -7,7 +7,7 @@ use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::field::exact_field;
 use crate::search::question::conditions::{Conditions, InState};
 
-/// Digits that leave open whether a millionth is there.
+/// Digits that do not decide whether a millionth is zero.
 const OPEN: Digits = Digits {
     tolerance: 1e-9,
     undecided: true,
@@ -20,7 +20,7 @@ const FINE: Digits = Digits {
 /// A millionth.
 const LITTLE: f64 = 1e-6;
 
-/// What is said of the determinate and of all conditions, each as no, sure or doubtful.
+/// Returns the standing for the determinate condition and for all conditions, each as no, sure or doubtful.
 fn judged(m: &Mechanism, conditions: Conditions, digits: Digits, choices: &[usize]) -> [String; 2] {
     let exact = exact_field(m, 0).unwrap();
     let question = Question::new(exact, m, conditions).unwrap();

@@ -1,7 +1,6 @@
 //! One variant judged by its singular values.
 
-use super::answer::Answer;
-use super::in_state::InStateSeen;
+use super::in_state::{Answer, InStateSeen};
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::StateId;
 use crate::rank::numeric::Elimination;
@@ -24,7 +23,7 @@ pub(super) enum Standing {
     Doubtful(Key),
 }
 
-/// What is found of a variant.
+/// The result for a variant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Judged {
     /// Whether it has few enough redundant constraints.
@@ -38,7 +37,7 @@ pub(super) struct Judge<'s> {
     question: &'s Question,
     all: Approximate,
     digits: Digits,
-    /// The least and the largest dimension that the kept links' motion may have in the free state, of the mechanism as it is.
+    /// The minimum and maximum dimension of the kept links' motion in the free state of the present mechanism.
     motion: [usize; 2],
 }
 
@@ -141,7 +140,7 @@ impl<'s> Judge<'s> {
         }
     }
 
-    /// Whether the kept links of a variant move as they do in the mechanism as it is; none where the values do not converge.
+    /// Returns whether the kept links of a variant move as in the present mechanism; `None` if the singular values do not converge.
     fn keeps_output(&self, choices: &[usize], free: RankRange) -> Option<Answer> {
         let kept = self.all.range(choices, RankedRows::WithKept, self.digits)?;
         let [from, to] = motion(free, kept);
@@ -162,7 +161,7 @@ impl<'s> Judge<'s> {
             .wanted(brute::key(self.question, choices, redundancy))
     }
 
-    /// What is seen of a variant in the searched state; none where the values do not converge.
+    /// Returns the figures of a variant in the searched state; `None` if the singular values do not converge.
     fn in_state(&self, state: StateId, choices: &[usize], free: RankRange) -> Option<InStateSeen> {
         let [rows, state_rows] = self.all.equations();
         let realized = variant_mechanism::realize(self.question, choices);

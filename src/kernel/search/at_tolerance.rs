@@ -1,0 +1,194 @@
+//! A search by singular values, for mechanisms that exact arithmetic does not have as they are meant.
+//!
+//! Variants are judged one by one: all of a small space; of a larger one a sample drawn at random, and the cheapest in order.
+//! Variants that the digits do not decide are counted as doubtful, so that each count is between those that are sure and these with the
+//! doubtful ones. No count is exact: a rank at a tolerance is likely, not proven.
+
+mod found;
+mod in_state;
+mod judge;
+
+pub use found::{AtTolerance, Bracket, Sampled, Share};
+pub(in crate::search) use found::{any_choices, choices};
+
+use crate::geom::exact::ExactError;
+use crate::search::answer::k_best::Assignment;
+use crate::search::answer::variants_in_order::every_choice;
+use crate::search::diagram::redundancy_so_far::Redundancy;
+use crate::search::diagram::{Diagram, Layer, Stop};
+use crate::search::question::Question;
+use crate::search::question::rounded_rank::Digits;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
+use found::Met;
+use judge::{Judge, Judged, Standing};
+use num_traits::ToPrimitive;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Spaces of at most this many variants are examined completely.
+pub const WHOLE: u32 = 50_000;
+/// Variants drawn of a larger one.
+const DRAWN: usize = 20_000;
+/// Maximum number of variants of a larger space that are examined in order of cost.
+const IN_ORDER: usize = 20_000;
+/// Number of variants that are examined before it is checked whether there are enough.
+const AT_ONCE: usize = 2048;
+/// Number of variants that a thread examines between two checks for cancellation.
+const BLOCK: usize = 64;
+
+/// Searches by singular values. In spaces that are too large to be examined completely, it looks for the `list` cheapest variants, and
+/// draws a sample from `seed`.
+///
+/// # Errors
+/// Returns an error if a coordinate has no value.
+///
+/// # Complexity
+/// Two or three decompositions of a matrix of 6k rows per variant, in parallel, for at most [`WHOLE`] variants.
+pub(crate) fn at_tolerance(
+    question: &mut Question,
+    digits: Digits,
+    list: usize,
+    seed: u64,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<AtTolerance, ExactError> {
+    let judge = Judge::new(question, digits)?;
+    let looking = Looking {
+        question,
+        judge: &judge,
+        cancelled,
+    };
+    let found = looking.search(list, seed);
+    let motion = judge.motion();
+    drop(judge);
+    question.present = Some(motion);
+    Ok(found)
+}
+
+/// A question whose variants are examined.
+struct Looking<'a> {
+    question: &'a Question,
+    judge: &'a Judge<'a>,
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Looking<'_> {
+    fn search(&self, list: usize, seed: u64) -> AtTolerance {
+        let question = self.question;
+        let size = question.size();
+        let whole = size.to_usize().filter(|n| *n <= WHOLE as usize);
+        let mut met = Met::default();
+        let (list, next_cost) = match whole {
+            Some(all) => self.in_order(usize::MAX, all, &mut met),
+            None => self.in_order(list, IN_ORDER, &mut met),
+        };
+        let looked = usize::try_from(met.looked).unwrap_or(usize::MAX);
+        let sampled = whole.is_none().then(|| {
+            let (drawn, [determinate, admissible]) = self.sample(seed, next_cost, &mut met);
+            Sampled {
+                drawn,
+                seed,
+                determinate,
+                admissible,
+                in_order: looked,
+                all_below: next_cost.map(|next| question.steps.milli(next)),
+            }
+        });
+        let stop = match whole {
+            Some(all) if all == looked => Stop::Exhausted,
+            None if !(self.cancelled)() => Stop::NodeBudget,
+            _ => Stop::Interrupted,
+        };
+        let [determinate, admissible] = met.brackets(question, &size);
+        AtTolerance {
+            digits: self.judge.digits(),
+            looked: met.looked,
+            determinate,
+            admissible,
+            by_cost: whole.map(|_| met.by_cost(question)).unwrap_or_default(),
+            sampled,
+            stop,
+            list,
+        }
+    }
+
+    /// Judges variants, as many as it comes to before it is cancelled.
+    fn look(&self, all: Vec<Vec<usize>>) -> Vec<(Vec<usize>, Judged)> {
+        let one = |choices: Vec<usize>| {
+            (!(self.cancelled)()).then(|| {
+                let judged = self.judge.judge(&choices);
+                (choices, judged)
+            })
+        };
+        let all = all.into_par_iter().with_min_len(BLOCK).map(one);
+        all.collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
+    /// Examines variants in order of cost until `wanted` are certainly admissible, or `most` are examined. Returns the certain ones, and
+    /// the cost in steps of the first variant that was not examined.
+    fn in_order(
+        &self,
+        wanted: usize,
+        most: usize,
+        met: &mut Met,
+    ) -> (Vec<Assignment>, Option<u64>) {
+        let question = self.question;
+        let mut list: Vec<Assignment> = Vec::new();
+        let diagram = free(question);
+        let mut all = every_choice(question, &diagram, most + 2 * AT_ONCE).peekable();
+        while list.len() < wanted && (met.looked as usize) < most && !(self.cancelled)() {
+            let block = all.by_ref().take(AT_ONCE).map(|v| v.choices).collect();
+            for (choices, judged) in self.look(block) {
+                met.add(&judged);
+                if let Standing::Sure(key) = judged.admissible {
+                    list.push(Assignment { choices, key });
+                }
+            }
+            if all.peek().is_none() {
+                break;
+            }
+        }
+        let order = |v: &Assignment| (question.rank(v.key), v.choices.clone());
+        list.sort_by_cached_key(order);
+        (list, all.peek().map(|v| v.key.cost()))
+    }
+
+    /// Examines a sample of all variants. Returns its size, and the shares of determinate and admissible variants in it. Sampled variants
+    /// that cost more than those examined in order are counted.
+    fn sample(&self, seed: u64, next_cost: Option<u64>, met: &mut Met) -> (usize, [Share; 2]) {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let one = |_| any_choices(self.question, &mut random);
+        let drawn = self.look((0..DRAWN).map(one).collect());
+        let mut seen = BTreeSet::new();
+        let mut shares = [[0usize; 2]; 2];
+        for (choices, judged) in &drawn {
+            for (standing, [sure, may]) in [judged.determinate, judged.admissible]
+                .iter()
+                .zip(&mut shares)
+            {
+                *sure += usize::from(matches!(standing, Standing::Sure(_)));
+                *may += usize::from(*standing != Standing::No);
+            }
+            let chosen = self.question.steps.keys.iter().zip(choices);
+            let cost = chosen.map(|(keys, &c)| keys[c].cost()).sum::<u64>();
+            // Those below were counted already.
+            if next_cost.is_none_or(|next| cost > next) && seen.insert(choices) {
+                met.add(judged);
+            }
+        }
+        let shares = shares.map(|[sure, may]| Share::of(sure, may, drawn.len()));
+        (drawn.len(), shares)
+    }
+}
+
+/// Returns the diagram of every choice.
+fn free(question: &Question) -> Diagram {
+    let layer = |(variable, keys): (usize, &Vec<_>)| Layer {
+        variable,
+        nodes: 1,
+        choices: keys.len(),
+        edges: vec![0; keys.len()],
+    };
+    let layers = question.steps.keys.iter().enumerate().map(layer);
+    Diagram::whole(layers.collect(), vec![Redundancy::default()])
+}

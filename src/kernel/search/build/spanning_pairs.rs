@@ -1,0 +1,152 @@
+//! Which nodes of the back half complete one of the front, pair by pair.
+//!
+//! Together both must span all coordinates of contours that they reach. Linear forms describe what the front does not span: they are zero
+//! on all that it spans. The rows of a node of the back are taken one after another. A row is new if one of the forms is not zero on it;
+//! the others are then changed so that they are zero there. Nodes whose bases have the same beginning are examined together, so most pairs
+//! take one sum of products. One more form includes the motion of kept links. It must be zero on each row that is not new, because no
+//! combination may move kept links alone.
+
+use crate::linalg::echelon::Echelon;
+use crate::linalg::modp::{Field, Residue};
+use crate::search::build::completing_sets::{Set, none, put};
+use hashbrown::HashMap;
+
+/// A node of the back, with its rows as numbers of vectors.
+type Rows = (Vec<usize>, usize);
+
+/// The bases of the nodes of the back, sorted so that equal beginnings are adjacent.
+pub(super) struct Bases {
+    field: Field,
+    vectors: Vec<Vec<Residue>>,
+    nodes: Vec<Rows>,
+    /// Whether the last number of a vector is a motion of kept links.
+    keeps: bool,
+}
+
+impl Bases {
+    /// Takes a reduced basis of each node, with a number of kept links behind the coordinates of contours.
+    pub(super) fn new(field: Field, bases: &[Vec<Vec<Residue>>], keeps: bool) -> Bases {
+        let mut known: HashMap<&[Residue], usize> = HashMap::new();
+        let mut vectors = Vec::new();
+        let mut number = |row| {
+            *known.entry(row).or_insert_with_key(|row: &&[Residue]| {
+                vectors.push(row.to_vec());
+                vectors.len() - 1
+            })
+        };
+        // The last rows have few numbers that are not zero, so that more bases have them in common.
+        let mut all: Vec<Vec<usize>> = Vec::with_capacity(bases.len());
+        for rows in bases {
+            all.push(rows.iter().rev().map(|row| number(&row[..])).collect());
+        }
+        let mut nodes: Vec<Rows> = all.into_iter().zip(0..).collect();
+        nodes.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
+        Bases {
+            field,
+            vectors,
+            nodes,
+            keeps,
+        }
+    }
+
+    /// Returns the nodes that complete a node of the front, which has these rows in `width` coordinates.
+    ///
+    /// # Complexity
+    /// O(e·d) field operations for e different beginnings of bases and d coordinates that the node does not span; O(e·d²) where most rows
+    /// are not the last ones.
+    pub(super) fn completing(&self, rows: &[Vec<Residue>], width: usize) -> Set {
+        let span = Echelon::of(self.field, rows);
+        let (rows, pivots) = (span.reduced(), span.pivots());
+        let open: Vec<usize> = (0..width).filter(|at| !pivots.contains(at)).collect();
+        let at_pivots = open
+            .iter()
+            .flat_map(|&at| rows.iter().map(move |row| self.field.neg(row[at])));
+        let at_pivots: Vec<Residue> = at_pivots.collect();
+        let mut images = Vec::with_capacity(self.vectors.len() * open.len());
+        for vector in &self.vectors {
+            let there: Vec<Residue> = pivots.iter().map(|&p| vector[p]).collect();
+            images.extend(open.iter().enumerate().map(|(form, &at)| {
+                let form = &at_pivots[form * pivots.len()..][..pivots.len()];
+                self.field.add(vector[at], self.field.dot(form, &there))
+            }));
+        }
+        let mut forms = vec![0; open.len() * open.len()];
+        let own = forms.iter_mut().step_by(open.len() + 1);
+        own.for_each(|own| *own = self.field.one());
+        let mut walk = Walk {
+            of: self,
+            images,
+            width: open.len(),
+            found: none(self.nodes.len()),
+        };
+        for alike in self.nodes.chunk_by(|(a, _), (b, _)| a.len() == b.len()) {
+            walk.follow(alike, 0, &forms);
+        }
+        walk.found
+    }
+}
+
+/// The nodes that complete one of the front, as far as they are found.
+struct Walk<'a> {
+    of: &'a Bases,
+    /// The forms of the front on each vector.
+    images: Vec<Residue>,
+    /// Forms of the front, that with the motion of kept links the last.
+    width: usize,
+    found: Set,
+}
+
+impl Walk<'_> {
+    /// Follows bases of one length from a row on, all with the same rows before it. `forms` are those that are zero on these rows.
+    fn follow(&mut self, nodes: &[Rows], row: usize, forms: &[Residue]) {
+        let missing = forms.len() / self.width - 1;
+        let rows = nodes[0].0.len();
+        let is_done = missing == 0 && !self.of.keeps;
+        if is_done || row == rows {
+            let complete = nodes.iter().filter(|_| missing == 0);
+            complete.for_each(|&(_, node)| put(&mut self.found, node));
+            return;
+        }
+        if rows - row < missing {
+            return;
+        }
+        for alike in nodes.chunk_by(|(a, _), (b, _)| a[row] == b[row]) {
+            let image = alike[0].0[row] * self.width;
+            let image = image..image + self.width;
+            let value = |form: usize| {
+                let form = &forms[form * self.width..][..self.width];
+                self.of.field.dot(form, &self.images[image.clone()])
+            };
+            match (0..missing).find(|&form| value(form) != 0) {
+                // Kept links would move alone.
+                None if self.of.keeps && value(missing) != 0 => {}
+                None => self.follow(alike, row + 1, forms),
+                Some(_) if missing > 1 && row + 1 == rows => {}
+                Some(own) => {
+                    let left = self.without(forms, own, &image);
+                    self.follow(alike, row + 1, &left);
+                }
+            }
+        }
+    }
+
+    /// Returns the other forms, each with a multiple of one taken off so that it is zero on a vector.
+    fn without(
+        &self,
+        forms: &[Residue],
+        own: usize,
+        image: &std::ops::Range<usize>,
+    ) -> Vec<Residue> {
+        let f = self.of.field;
+        let image = &self.images[image.clone()];
+        let of = |form: usize| &forms[form * self.width..][..self.width];
+        let scale = f.dot(of(own), image);
+        let others = (0..forms.len() / self.width).filter(|&form| form != own);
+        let anew = others.flat_map(|form| {
+            let value = f.dot(of(form), image);
+            let both = of(form).iter().zip(of(own));
+            both.map(move |(&x, &y)| f.sub(f.mul(scale, x), f.mul(value, y)))
+        });
+        anew.collect()
+    }
+}
