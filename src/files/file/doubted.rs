@@ -1,9 +1,10 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions, and directions of options
 //! that are not given and default to the joint's own, where they have another meaning.
 
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::lint::Found;
+use crate::file::locate::DocumentPath;
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::file::warning::{WarningKind, first_of};
+use crate::file::warning::first_of;
 use crate::format::significant;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::JointType;
@@ -11,20 +12,18 @@ use crate::model::mechanism::{Joint, Mechanism};
 use crate::model::rounded::ratio::{doubt, doubt_of};
 
 /// Returns the doubtful values of the couplings and screws of a mechanism.
-pub(super) fn doubted(
-    file: &MechanismFile,
-    m: &Mechanism,
-) -> Vec<(Vec<DocumentStep>, WarningKind)> {
-    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
+pub(super) fn doubted(file: &MechanismFile, m: &Mechanism) -> Found {
     let couplings = m.couplings.iter().enumerate().filter_map(|(i, c)| {
         let doubt = doubt_of(c)?;
-        let kind = WarningKind::DoubtedRatio {
-            coupling: c.name(m),
-            ratio: c.ratio.to_string(),
-            half: significant(doubt.half),
-            fraction: doubt.fraction.to_string(),
-        };
-        Some((key(&index(&root("coupling"), i), "ratio"), kind))
+        let message = format!(
+            "the ratio {} of {} is a decimal, known to within {}; write ratio = \"{}\" if that is intended, or another fraction",
+            c.ratio,
+            c.name(m),
+            significant(doubt.half),
+            doubt.fraction
+        );
+        let path = DocumentPath::root("coupling").index(i).key("ratio");
+        Some((path, message.into()))
     });
     let screws = file.joint.iter().zip(&m.joints).enumerate();
     let screws = screws.filter_map(|(i, (entry, joint))| {
@@ -34,12 +33,13 @@ pub(super) fn doubted(
         // The lead is what screws are made to.
         let lead = Expr::from_f64((pitch * &turn).to_f64()).ok()?;
         let lead = doubt(&pitch.scaled_as_written(lead, turn.to_f64()))?;
-        let kind = WarningKind::DoubtedPitch {
-            joint: joint.id.clone(),
-            pitch: pitch.to_string(),
-            lead: lead.simple()?.to_string(),
-        };
-        Some((key(&index(&root("joint"), i), "pitch"), kind))
+        let message = format!(
+            "the pitch {pitch} of joint \"{}\" is a decimal close to that of a simple lead; write lead = \"{}\" instead if that is intended",
+            joint.id,
+            lead.simple()?
+        );
+        let path = DocumentPath::root("joint").index(i).key("pitch");
+        Some((path, message.into()))
     });
     couplings.chain(screws).collect()
 }
@@ -51,21 +51,15 @@ const SHOWN: usize = 8;
 type Guess = (&'static str, &'static str, &'static str);
 
 /// Lists each option with guessed directions once, with the joints where it has them.
-pub(crate) fn guessed(
-    file: &MechanismFile,
-    m: &Mechanism,
-) -> Vec<(Vec<DocumentStep>, WarningKind)> {
-    let mut found: Vec<(Vec<DocumentStep>, String, Guess, Vec<&str>)> = Vec::new();
+pub(crate) fn guessed(file: &MechanismFile, m: &Mechanism) -> Found {
+    let mut found: Vec<(DocumentPath, String, Guess, Vec<&str>)> = Vec::new();
     for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
         let (list, at) = match &entry.options {
-            Some(list) => (list, index(&[DocumentStep::Key("joint".to_owned())], i)),
-            None => (
-                &file.search.options,
-                vec![DocumentStep::Key("search".to_owned())],
-            ),
+            Some(list) => (list, DocumentPath::root("joint").index(i)),
+            None => (&file.search.options, DocumentPath::root("search")),
         };
         for (n, item) in list.iter().enumerate() {
-            let path = index(&key(&at, "options"), n);
+            let path = at.key("options").index(n);
             let Some((name, guess)) = of_option(&item.table(), entry, joint) else {
                 continue;
             };
@@ -79,14 +73,10 @@ pub(crate) fn guessed(
     let told = found.into_iter().map(|(path, option, guess, joints)| {
         let (what, along, key) = guess;
         let joints = first_of(&joints, SHOWN);
-        let kind = WarningKind::Guessed {
-            option,
-            what,
-            along,
-            key,
-            joints,
-        };
-        (path, kind)
+        let message = format!(
+            "the {what} of option \"{option}\" is not given and is taken along {along} at {joints}; write a table with `{key}` if another is intended: {{ type = \"{option}\", {key} = [...] }}"
+        );
+        (path, message.into())
     });
     told.collect()
 }

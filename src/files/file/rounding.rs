@@ -22,8 +22,10 @@ const TOLD: usize = 5;
 pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
     let mut out = Vec::new();
     if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
-        let what = rounded.to_string();
-        out.push(WarningKind::Measured { what });
+        let message = format!(
+            "coordinates look measured or rounded: {rounded}; if the exact values are known, write them in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\"; otherwise give their uncertainty in a [tolerance] table"
+        );
+        out.push(message.into());
     }
     for state in m.state_ids() {
         // Why there is no verdict is for `ozols analyze` to say.
@@ -75,12 +77,13 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
         return None;
     };
     let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();
-    let [x, y, z] = towards.map(|c| format!("{c:.6}"));
-    Some(WarningKind::DefaultReference {
-        joints: first_of(&ids, TOLD),
-        first: first.id.clone(),
-        reference: format!("[{x}, {y}, {z}]"),
-    })
+    let [x, y, z] = towards;
+    let message = format!(
+        "the second axes of {} use the default, which depends on the file's x, y and z; the same mechanism rotated in space has other axes; write them out, such as reference = [{x:.6}, {y:.6}, {z:.6}] at {}",
+        first_of(&ids, TOLD),
+        first.id
+    );
+    Some(message.into())
 }
 
 fn of_verdict(found: &RankVerdict) -> WarningKind {
@@ -88,22 +91,19 @@ fn of_verdict(found: &RankVerdict) -> WarningKind {
         let (w, sigma) = found.figures(rank);
         format!("W = {w}, σ = {sigma}")
     };
-    let state = found.state.clone();
-    if found.is_decided() {
-        let understood = match &found.meant {
-            Meant::Snapped { understood, .. } => format!(". Understood: {understood}"),
-            _ => String::new(),
-        };
-        WarningKind::Meant {
-            understood,
-            state,
-            meant: figures(found.rank()),
-            written: figures(found.as_written),
-        }
-    } else {
-        let what = found.undecided();
-        WarningKind::Undecided { state, what }
+    let state = &found.state;
+    if !found.is_decided() {
+        return format!("state {state}: {}", found.undecided()).into();
     }
+    let understood = match &found.meant {
+        Meant::Snapped { understood, .. } => format!(". Understood: {understood}"),
+        _ => String::new(),
+    };
+    let (meant, written) = (figures(found.rank()), figures(found.as_written));
+    format!(
+        "state {state}: the idealised geometry gives {meant}, and the rounded digits as written give {written}; write roots or expressions such as \"sqrt(3)/2\", or more digits{understood}"
+    )
+    .into()
 }
 
 /// Lists pairs of joints that are nearly parallel, perpendicular, coaxial or concurrent, and their distances from it.

@@ -9,8 +9,7 @@ pub(crate) type Read<T> = Result<T, ImportError>;
 
 /// Returns a problem with the given message.
 pub(crate) fn syntax_problem(message: impl Into<String>) -> ProblemKind {
-    let message = message.into();
-    ProblemKind::Syntax { message }
+    ProblemKind::from(message)
 }
 
 pub(crate) fn too_large(bytes: usize, limit: usize) -> ProblemKind {

@@ -1,7 +1,6 @@
 //! The joints: ends, type, place, the states they act in.
 
-use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{frame, joint_type, motion_name, option};
+use crate::file::read::resolve::{frame, joint_type, lacks, motion_name, option, takes_no};
 use crate::file::read::search::options;
 use crate::file::read::value::LIMITS;
 use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading};
@@ -22,12 +21,9 @@ pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
         .chain(named)
         .unique()
         .collect_vec();
-    if states.len() > MOST_STATES {
-        let (what, count, limit) = ("states", states.len(), MOST_STATES);
-        out.key("joint")
-            .add(ProblemKind::TooMany { what, count, limit });
-        states.truncate(MOST_STATES);
-    }
+    out.key("joint")
+        .count_within(MOST_STATES, states.len(), "states");
+    states.truncate(MOST_STATES);
     states
 }
 
@@ -97,8 +93,10 @@ fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
     };
     let ends = [end(0), end(1)];
     if entry.links[0] == entry.links[1] {
-        let (joint, link) = (entry.id.clone(), entry.links[0].clone());
-        at.add(ProblemKind::SelfLoop { joint, link });
+        at.add(format!(
+            "joint \"{}\" connects link \"{}\" to itself; name two different links",
+            entry.id, entry.links[0]
+        ));
     }
     ends
 }
@@ -139,10 +137,7 @@ fn unloading(
 
 fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
     let (joint, kind) = (&entry.id, &entry.kind);
-    let missing = |what| {
-        let (joint, kind) = (joint.clone(), kind.clone());
-        at.add(ProblemKind::Missing { joint, kind, what });
-    };
+    let missing = |what| at.add(lacks(joint, kind, what));
     let point = at.key("point").vector(&entry.point);
     let axis = entry.axis.as_ref().map(|v| at.key("axis").direction(v));
     if axis.is_none() && !matches!(joint_type, JointType::Spherical | JointType::Fixed) {
@@ -160,9 +155,7 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
             missing("a lead, the translation per turn, such as lead = 5 (or a pitch, per radian)")
         }
         (Some((what, _)), false) => {
-            let (joint, kind) = (joint.clone(), kind.clone());
-            at.key(what)
-                .add(ProblemKind::Superfluous { joint, kind, what });
+            at.key(what).add(takes_no(joint, kind, what));
         }
         _ => {}
     }

@@ -24,16 +24,18 @@ pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
             }
         };
         if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
-            let (first, second) = (first.id.clone(), entry.id.clone());
-            at.key("role")
-                .add(ProblemKind::SecondFrame { first, second });
+            at.key("role").add(format!(
+                "link \"{}\" is a second frame after \"{}\"; keep only one role = \"frame\"",
+                entry.id, first.id
+            ));
         }
         let (id, mass) = (entry.id.clone(), mass(entry, &at));
         links.push(Link { id, role, mass });
     }
     let has = |role| links.iter().any(|l| l.role == role);
     if !has(Role::Frame) {
-        out.key("link").add(ProblemKind::NoFrame);
+        out.key("link")
+            .add("no link has the role \"frame\"; mark the fixed link with role = \"frame\"");
     }
     if !has(Role::Output) {
         outputs(file, &mut links);
@@ -99,7 +101,7 @@ pub(crate) fn contours(file: &MechanismFile, m: &Mechanism, out: &Findings) -> V
         let named = at.entries(joints).filter_map(|(at, id)| at.joint(m, id));
         let named: Vec<JointId> = named.collect();
         if named.len() == joints.len() && closed_walk(m, &named).is_none() {
-            at.add(ProblemKind::OpenContour);
+            at.add("the joints of this contour do not form one closed loop; list them in order around the loop");
         }
         named
     };

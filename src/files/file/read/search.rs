@@ -48,8 +48,10 @@ pub(crate) fn options(
         let joint = entry.id.clone();
         match contained {
             Some(true) if options.iter().any(|o| o.name == option.name) => {
-                let option = option.name;
-                at.add(ProblemKind::RepeatedOption { joint, option });
+                at.add(format!(
+                    "joint \"{joint}\" has two options named \"{}\"; rename one of them",
+                    option.name
+                ));
             }
             Some(true) => options.push(option),
             Some(false) if entry.options.is_some() => {
@@ -99,9 +101,11 @@ fn images(mechanism: &Mechanism, pairs: &[(JointId, JointId)], at: &Place<'_>) {
     let size = diagonal(points);
     for ((at, &(a, b)), miss) in at.entries(pairs).zip(misses) {
         if miss.angle > NO_IMAGE || miss.distance > NO_IMAGE * size {
-            let [first, second] = [a, b].map(|j| mechanism.joints[j].id.clone());
+            let [first, second] = [a, b].map(|j| &mechanism.joints[j].id);
             let off = miss.words(mechanism.length_unit.symbol);
-            at.add(ProblemKind::NoMirrorImage { first, second, off });
+            at.add(format!(
+                "joints \"{first}\" and \"{second}\" are not mirror images: in the plane that fits most pairs the image of \"{first}\" is {off} from \"{second}\"; correct their points and axes, or remove the pair"
+            ));
         }
     }
 }
@@ -128,8 +132,10 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
             if first {
                 grouped.push(j);
             } else {
-                let joint = mechanism.joints[j].id.clone();
-                at.add(ProblemKind::RepeatedImage { joint, under });
+                let joint = &mechanism.joints[j].id;
+                at.add(format!(
+                    "joint \"{joint}\" has more than one image under {under}; name each joint once"
+                ));
             }
             first
         });
@@ -144,9 +150,12 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
         let found = joints(group, "turn", &at);
         let first = file.search.turn[0].len();
         if ![2, 3].contains(&group.len()) || group.len() != first {
-            at.add(ProblemKind::TurnGroup { count: group.len() });
+            at.add(format!(
+                "a group of {} joints under turn: write pairs for half a turn, or groups of three for a third, all of one kind",
+                group.len()
+            ));
         } else if !file.search.mirror.is_empty() {
-            at.add(ProblemKind::TurnAndMirror);
+            at.add("mirror and turn exclude each other; keep one of them");
         } else if found.len() == first {
             spec.turn.push(found);
         }

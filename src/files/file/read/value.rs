@@ -7,7 +7,6 @@ pub(crate) mod quantity;
 pub(in crate::file::read) mod tolerance;
 
 use crate::file::Findings;
-use crate::file::problem::ProblemKind;
 use crate::file::schema::MechanismFile;
 use crate::geom::expr::{Expr, WORDS};
 use crate::model::mechanism::LengthUnit;
@@ -59,9 +58,7 @@ const MOST: usize = 64;
 /// Returns the parameters of a file by name.
 fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
     let at = out.key("parameter");
-    if file.parameter.len() > MOST {
-        let (what, count, limit) = ("parameters", file.parameter.len(), MOST);
-        at.add(ProblemKind::TooMany { what, count, limit });
+    if !at.count_within(MOST, file.parameter.len(), "parameters") {
         return BTreeMap::new();
     }
     let mut all = BTreeMap::new();
@@ -70,7 +67,9 @@ fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
         let first = name.starts_with(|c: char| c.is_ascii_alphabetic());
         let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if !first || !rest || WORDS.contains(&name.as_str()) {
-            at.add(ProblemKind::BadParameter { name: name.clone() });
+            at.add(format!(
+                "a parameter cannot be named {name:?}; use a letter followed by letters, digits or _, but not pi, deg, sqrt, cos, sin, tan or cot"
+            ));
         }
         all.insert(name.clone(), at.number(value));
     }

@@ -1,6 +1,6 @@
 //! `[ranking]` and `[joint_types]`.
 
-use crate::file::problem::ProblemKind;
+use crate::file::read::value::names::used_twice;
 use crate::file::schema::{JointTypeEntry, MechanismFile, RankingEntry};
 use crate::file::{Findings, Place};
 use crate::model::joint_type::JointType;
@@ -58,8 +58,7 @@ fn terms(entry: &RankingEntry, at: &Place<'_>) -> Vec<(Term, f64)> {
             continue;
         };
         if terms.iter().any(|(other, _)| *other == term) {
-            let (what, id) = ("[ranking]", t.term.clone());
-            at.key("term").add(ProblemKind::Duplicate { what, id });
+            at.key("term").add(used_twice("[ranking]", &t.term));
         }
         terms.push((term, weight));
     }

@@ -1,7 +1,6 @@
 //! Names of links and joints: as they are declared, and as others refer to them.
 
 use crate::file::Place;
-use crate::file::problem::ProblemKind;
 use crate::file::schema::Words;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use itertools::Itertools;
@@ -21,14 +20,15 @@ impl Words {
 
 impl Place<'_> {
     /// Reports what is wrong with the name of an item. `twice` is true if another item has the same name.
-    pub(crate) fn check_id(&self, what: &'static str, id: &str, twice: bool) {
+    pub(crate) fn check_id(&self, what: &str, id: &str, twice: bool) {
         let at = self.key("id");
-        let id = id.to_owned();
         if id.is_empty() || id.chars().count() > 64 || id.chars().any(char::is_control) {
-            at.add(ProblemKind::BadId { id: id.clone() });
+            at.add(format!(
+                "an id must have 1 to 64 characters and no control characters, not {id:?}"
+            ));
         }
         if twice {
-            at.add(ProblemKind::Duplicate { what, id });
+            at.add(used_twice(what, id));
         }
     }
 
@@ -37,8 +37,7 @@ impl Place<'_> {
         let found = links.iter().position(|l| l.id == *id).map(LinkId::new);
         if found.is_none() {
             let known = links.iter().take(LISTED).map(|l| l.id.as_str()).join(", ");
-            let id = id.to_owned();
-            self.add(ProblemKind::UnknownLink { id, known });
+            self.add(format!("unknown link \"{id}\"; known links: {known}"));
         }
         found
     }
@@ -55,8 +54,8 @@ impl Place<'_> {
     /// Reports an unknown joint.
     pub(crate) fn unknown_joint(&self, mechanism: &Mechanism, id: &str) {
         let mut ids = mechanism.joints.iter().map(|j| j.id.as_str()).take(LISTED);
-        let (id, known) = (id.to_owned(), ids.join(", "));
-        self.add(ProblemKind::UnknownJoint { id, known });
+        let known = ids.join(", ");
+        self.add(format!("unknown joint \"{id}\"; known joints: {known}"));
     }
 
     /// Returns the states that an entry names; `None` if it names none, which means all.
@@ -70,4 +69,9 @@ impl Place<'_> {
         }
         Some(found)
     }
+}
+
+/// Returns the message of an id that two things have.
+pub(crate) fn used_twice(what: &str, id: &str) -> String {
+    format!("{what} id \"{id}\" is used twice; ids must be unique")
 }

@@ -1,7 +1,6 @@
 //! Numbers from their entries: lengths, directions, pitches.
 
 use crate::file::Place;
-use crate::file::problem::ProblemKind;
 use crate::file::schema::Coordinate;
 use crate::geom::expr::{Expr, ExprError, WrittenNumber};
 use itertools::Itertools;
@@ -74,7 +73,10 @@ impl Place<'_> {
         if is_usual(size) && !lost {
             return e;
         }
-        self.add(ProblemKind::OutOfRange { value: short(&e) });
+        self.add(format!(
+            "coordinate {} is out of range; lengths may be 1e-40 to 1e12 in size; choose another length_unit",
+            short(&e)
+        ));
         Expr::from(0)
     }
 
@@ -92,8 +94,7 @@ impl Place<'_> {
                 }
                 _ => String::new(),
             };
-            let message = format!("{e}{parameters}");
-            self.add(ProblemKind::BadNumber { message });
+            self.add(format!("{e}{parameters}"));
             Expr::from(0)
         })
     }

@@ -3,6 +3,7 @@
 use crate::file::Place;
 use crate::file::schema::Coordinate;
 use std::f64::consts::PI;
+use std::fmt::Display;
 
 /// The allowed range of a value.
 #[derive(Clone, Copy)]
@@ -92,7 +93,7 @@ impl Place<'_> {
     pub(crate) fn number_of(
         &self,
         what: &'static str,
-        count: impl Copy + ToString + TryInto<usize>,
+        count: impl Copy + Display + TryInto<usize>,
         most: usize,
         allowed: &'static str,
     ) -> Option<usize> {

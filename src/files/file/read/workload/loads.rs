@@ -1,6 +1,5 @@
 //! Masses of links and the `[workload]` table.
 
-use crate::file::problem::ProblemKind;
 use crate::file::read::workload::joint_loads::{faces, misalignments, moments, stiffness};
 use crate::file::read::workload::motion::{LARGEST, MAX_FORCES, MAX_STEPS};
 use crate::file::schema::{
@@ -60,8 +59,10 @@ pub(crate) fn mass(entry: &LinkEntry, at: &Place<'_>) -> Option<MassProperties> 
         (Some(_), None) => "centre, its mass centre at the pose of the file",
         (None, _) => "mass, in kg",
     };
-    let link = entry.id.clone();
-    at.add(ProblemKind::LinkNeeds { link, what });
+    let link = &entry.id;
+    at.add(format!(
+        "link \"{link}\" has incomplete mass data; add {what}"
+    ));
     None
 }
 
@@ -123,10 +124,7 @@ fn drive_speeds(entry: Option<&Quantities>, mechanism: &Mechanism, at: &Place<'_
         Some(Quantities::Many(list)) => at.entries(list).map(|(at, q)| at.speed(q)).collect(),
     };
     let drives = mechanism.joints.iter().filter(|j| j.drive).count();
-    let (what, count, limit) = ("drive speeds", speeds.len(), drives);
-    if count > limit {
-        at.add(ProblemKind::TooMany { what, count, limit });
-    }
+    at.count_within(drives, speeds.len(), "drive speeds");
     speeds
 }
 

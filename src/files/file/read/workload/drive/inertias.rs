@@ -1,7 +1,6 @@
 //! The inertias on the bar: discs, given by figures or by a link, and a payload.
 
 use crate::file::Place;
-use crate::file::problem::ProblemKind;
 use crate::file::read::workload::grip::MECHANISM;
 use crate::file::schema::DriveEntry;
 use crate::geom::vector::{dot, real, scale, sub};
@@ -11,9 +10,8 @@ use crate::model::loads::Inertia;
 use crate::model::mechanism::{Mechanism, StateId};
 
 /// Reports a key that the table lacks.
-pub(super) fn lacks(t: &Place<'_>, other: &'static str) {
-    let key = "drive";
-    t.add(ProblemKind::KeyNeeds { key, other });
+pub(super) fn lacks(t: &Place<'_>, other: &str) {
+    t.add(format!("drive needs {other}"));
 }
 
 /// Returns the inertia of a link about the axis of its joint with the frame.
