@@ -199,7 +199,7 @@ impl OptionEntry {
 }
 
 /// A joint option as a table.
-#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionTable {
     /// Joint type. Default: custom, if freedoms are given.

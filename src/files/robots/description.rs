@@ -186,7 +186,7 @@ impl Ratio {
 }
 
 /// A robot as read.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Robot {
     pub(in crate::robots) name: String,
     /// Names of the links.
@@ -221,8 +221,9 @@ pub(crate) struct Robot {
 }
 
 /// A unit of lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum Unit {
+    #[default]
     Metre,
     Millimetre,
 }
@@ -256,21 +257,8 @@ impl Robot {
     pub(crate) fn new(name: &str) -> Robot {
         Robot {
             name: name.to_owned(),
-            links: Vec::new(),
-            joints: Vec::new(),
-            couplings: Vec::new(),
-            world: None,
-            floats: false,
-            shown: BTreeSet::new(),
-            frames: BTreeMap::new(),
-            places: Vec::new(),
-            unit: Unit::Metre,
-            known_to: None,
-            here_only: false,
-            assembly: false,
             options: &OPTIONS,
-            said: BTreeMap::new(),
-            report: Report::default(),
+            ..Robot::default()
         }
     }
 

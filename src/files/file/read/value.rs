@@ -18,38 +18,24 @@ pub(crate) const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
 /// Most entries of the closure matrix written out: 256 MB, and an elimination of some minutes.
 pub(crate) const ENTRIES: usize = 1 << 25;
 
-const UNITS: [LengthUnit; 5] = [
-    LengthUnit {
-        symbol: "m",
-        metres: 1.0,
-    },
-    LengthUnit {
-        symbol: "mm",
-        metres: 1e-3,
-    },
-    LengthUnit {
-        symbol: "cm",
-        metres: 1e-2,
-    },
-    LengthUnit {
-        symbol: "um",
-        metres: 1e-6,
-    },
-    LengthUnit {
-        symbol: "in",
-        metres: 0.0254,
-    },
+const UNITS: [(&str, f64); 5] = [
+    ("m", 1.0),
+    ("mm", 1e-3),
+    ("cm", 1e-2),
+    ("um", 1e-6),
+    ("in", 0.0254),
 ];
 
 /// Returns the file's unit of length.
 pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     let symbol = file.length_unit.as_deref().unwrap_or("m");
-    let found = UNITS.into_iter().find(|u| u.symbol == symbol);
-    found.unwrap_or_else(|| {
-        let known = UNITS.iter().map(|u| u.symbol);
+    let found = UNITS.into_iter().find(|u| u.0 == symbol);
+    let (symbol, metres) = found.unwrap_or_else(|| {
+        let known = UNITS.iter().map(|u| u.0);
         out.key("length_unit").unknown("length unit", symbol, known);
         UNITS[0]
-    })
+    });
+    LengthUnit { symbol, metres }
 }
 
 /// Most parameters.

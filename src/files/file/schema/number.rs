@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A number, or an exact expression in quotes: "sqrt(3)/2", "cos(36deg)", "tan(pi/8)", "1/3".
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "expected a number, or an expression in quotes such as \"sqrt(3)/2\""

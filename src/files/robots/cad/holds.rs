@@ -64,20 +64,7 @@ impl Holds {
 
     /// Returns the number of constraints.
     pub(crate) fn rows(self) -> usize {
-        match self {
-            Holds::Fixed => 6,
-            Holds::Revolute | Holds::Translational => 5,
-            Holds::Cylindrical | Holds::Universal | Holds::ConstantVelocity | Holds::Hinges(_) => 4,
-            Holds::Spherical | Holds::Planar(_) | Holds::NoRotation | Holds::LineLine(_) => 3,
-            Holds::LineInPlane(_) | Holds::PointInLine | Holds::ParallelAxes => 2,
-            Holds::PointInPlane(_)
-            | Holds::Angle(_)
-            | Holds::PointPoint(_)
-            | Holds::PointLine(_)
-            | Holds::Gear(_)
-            | Holds::RackPinion(_)
-            | Holds::Screw(_) => 1,
-        }
+        self.figures().0
     }
 
     /// Returns true if it couples the motions of two other joints.
@@ -90,29 +77,34 @@ impl Holds {
 
     /// Returns its name for reports.
     pub(crate) fn word(self) -> &'static str {
+        self.figures().1
+    }
+
+    /// Returns the number of constraints and the name.
+    fn figures(self) -> (usize, &'static str) {
         match self {
-            Holds::Fixed => "fixed",
-            Holds::Revolute => "revolute",
-            Holds::Translational => "slider",
-            Holds::Cylindrical => "cylindrical",
-            Holds::Spherical => "ball",
-            Holds::Universal => "universal",
-            Holds::ConstantVelocity => "constant velocity",
-            Holds::Planar(_) => "plane on plane",
-            Holds::PointInPlane(_) => "point in plane",
-            Holds::LineInPlane(_) => "line in plane",
-            Holds::PointInLine => "point on line",
-            Holds::ParallelAxes => "parallel",
-            Holds::NoRotation => "no rotation",
-            Holds::Angle(_) => "angle",
-            Holds::PointPoint(_) => "distance of points",
-            Holds::PointLine(_) => "distance of point and line",
-            Holds::LineLine(_) => "distance of lines",
-            Holds::Hinges(_) => "distance of hinges",
-            Holds::Gear([_, r]) if r < 0.0 => "belt",
-            Holds::Gear(_) => "gears",
-            Holds::RackPinion(_) => "rack and pinion",
-            Holds::Screw(_) => "screw",
+            Holds::Fixed => (6, "fixed"),
+            Holds::Revolute => (5, "revolute"),
+            Holds::Translational => (5, "slider"),
+            Holds::Cylindrical => (4, "cylindrical"),
+            Holds::Spherical => (3, "ball"),
+            Holds::Universal => (4, "universal"),
+            Holds::ConstantVelocity => (4, "constant velocity"),
+            Holds::Planar(_) => (3, "plane on plane"),
+            Holds::PointInPlane(_) => (1, "point in plane"),
+            Holds::LineInPlane(_) => (2, "line in plane"),
+            Holds::PointInLine => (2, "point on line"),
+            Holds::ParallelAxes => (2, "parallel"),
+            Holds::NoRotation => (3, "no rotation"),
+            Holds::Angle(_) => (1, "angle"),
+            Holds::PointPoint(_) => (1, "distance of points"),
+            Holds::PointLine(_) => (1, "distance of point and line"),
+            Holds::LineLine(_) => (3, "distance of lines"),
+            Holds::Hinges(_) => (4, "distance of hinges"),
+            Holds::Gear([_, r]) if r < 0.0 => (1, "belt"),
+            Holds::Gear(_) => (1, "gears"),
+            Holds::RackPinion(_) => (1, "rack and pinion"),
+            Holds::Screw(_) => (1, "screw"),
         }
     }
 }
