@@ -12,12 +12,10 @@ pub mod locate;
 pub mod loose;
 pub mod problem;
 pub mod read;
-mod rounding;
 pub mod schema;
 mod shape;
 pub mod template;
 pub mod text;
-pub mod warning;
 pub mod write;
 
 use crate::file::locate::DocumentPath;

@@ -3,13 +3,19 @@
 
 use crate::file::lint::Found;
 use crate::file::locate::DocumentPath;
+use crate::file::problem::{WarningKind, first_of};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::file::warning::first_of;
 use crate::format::significant;
 use crate::geom::expr::Expr;
+use crate::geom::vector::{across, length, real, sub, unit};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, Mechanism};
+use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::model::rounded::ratio::{doubt, doubt_of};
+use crate::model::rounded::{looks_rounded, uncertainties};
+use crate::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
+use crate::rank::rounded::nearly_special::{nearly_special, reach};
+use crate::rank::rounded::size;
+use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
 
 /// Returns the doubtful values of the couplings and screws of a mechanism.
 pub(super) fn doubted(file: &MechanismFile, m: &Mechanism) -> Found {
@@ -130,4 +136,150 @@ fn faces(of: &JointType) -> bool {
         of,
         JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
     )
+}
+
+/// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
+const NEARLY: f64 = 1e-4;
+/// Nor told of where doubles alone miss it.
+const DOUBLE: f64 = 1e-12;
+/// Pairs of joints told of.
+const TOLD: usize = 5;
+
+/// Returns the doubtful values.
+pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
+    let mut out = Vec::new();
+    if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
+        let message = format!(
+            "coordinates look measured or rounded: {rounded}; if the exact values are known, write them in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\"; otherwise give their uncertainty in a [tolerance] table"
+        );
+        out.push(message.into());
+    }
+    for state in m.state_ids() {
+        // Why there is no verdict is for `ozols analyze` to say.
+        let Ok(found) = verdict(m, state) else {
+            continue;
+        };
+        // What is meant has mostly the figures of what is written; only others are doubtful.
+        if !found.agrees() {
+            out.push(of_verdict(&found));
+        }
+    }
+    out.extend(by_default(m));
+    let all = nearly(m);
+    if !all.is_empty() {
+        let what = first_of(&all, TOLD);
+        out.push(WarningKind::NearlySpecial { what });
+    }
+    out
+}
+
+/// Returns a warning about second axes that use the default while other axes are rounded. They depend on the file's x, y and z,
+/// so the same mechanism rotated in space has others.
+fn by_default(m: &Mechanism) -> Option<WarningKind> {
+    let half = uncertainties(m)?;
+    let left = |(j, joint): &(JointId, &Joint)| {
+        let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
+        let types =
+            std::iter::once(&joint.joint_type).chain(joint.offered().map(|o| &o.joint_type));
+        half.axis[j.index()] != [0.0; 3]
+            && types.into_iter().any(JointType::has_second_axis)
+            && joint
+                .frame
+                .reference
+                .iter()
+                .all(|e| !given(e) && e.as_rational().is_some())
+    };
+    let all: Vec<(JointId, &Joint)> = m.joints_with_ids().filter(left).collect();
+    let (_, first) = all.first()?;
+    let axis = unit(real(&first.frame.axis));
+    let here = real(&first.frame.point);
+    let others = m
+        .joints
+        .iter()
+        .map(|other| across(sub(real(&other.frame.point), here), axis));
+    let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
+    let towards = if length(towards) > 0.0 {
+        unit(towards)
+    } else {
+        return None;
+    };
+    let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();
+    let [x, y, z] = towards;
+    let message = format!(
+        "the second axes of {} use the default, which depends on the file's x, y and z; the same mechanism rotated in space has other axes; write them out, such as reference = [{x:.6}, {y:.6}, {z:.6}] at {}",
+        first_of(&ids, TOLD),
+        first.id
+    );
+    Some(message.into())
+}
+
+fn of_verdict(found: &RankVerdict) -> WarningKind {
+    let figures = |rank: usize| {
+        let (w, sigma) = found.figures(rank);
+        format!("W = {w}, σ = {sigma}")
+    };
+    let state = &found.state;
+    if !found.is_decided() {
+        return format!("state {state}: {}", found.undecided()).into();
+    }
+    let understood = match &found.meant {
+        Meant::Snapped { understood, .. } => format!(". Understood: {understood}"),
+        _ => String::new(),
+    };
+    let (meant, written) = (figures(found.rank()), figures(found.as_written));
+    format!(
+        "state {state}: the idealised geometry gives {meant}, and the rounded digits as written give {written}; write roots or expressions such as \"sqrt(3)/2\", or more digits{understood}"
+    )
+    .into()
+}
+
+/// Lists pairs of joints that are nearly parallel, perpendicular, coaxial or concurrent, and their distances from it.
+fn nearly(m: &Mechanism) -> Vec<String> {
+    let least = Reach::relative(NEARLY, size(m));
+    let within = reach(m).map_or(least, |r| Reach {
+        length: r.length.max(least.length),
+        angle: r.angle.max(least.angle),
+    });
+    let told = |x: &&NearJoint| x.turn > DOUBLE || x.shift > DOUBLE * size(m);
+    nearly_special(m, within)
+        .iter()
+        .filter(told)
+        .filter_map(|x| words(m, x))
+        .collect()
+}
+
+/// Describes a pair of joints, such as "LF and LR are 0.002 degrees from coaxial".
+fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
+    let strongest = x
+        .relations
+        .iter()
+        .max_by_key(|(r, of)| (rank(*r), of.is_some()));
+    let (relation, other) = strongest?;
+    let (id, far) = (&m.joints[x.joint].id, x.far(m));
+    let special = match relation {
+        Relation::Zero => return None,
+        Relation::Parallel => "parallel",
+        Relation::Square => "square",
+        Relation::InPlane => "one plane",
+        Relation::Coaxial => "coaxial",
+        Relation::Meeting => "meeting",
+        Relation::Concentric => "concentric",
+    };
+    Some(match other {
+        Some(j) => format!("{} and {id} are {far} from {special}", m.joints[*j].id),
+        None => format!("{id} is {far} from {special} to a global axis"),
+    })
+}
+
+/// Returns the priority of a relation: how much it states about two joints.
+fn rank(relation: Relation) -> usize {
+    match relation {
+        Relation::Zero => 0,
+        Relation::InPlane => 1,
+        Relation::Square => 2,
+        Relation::Parallel => 3,
+        Relation::Meeting => 4,
+        Relation::Concentric => 5,
+        Relation::Coaxial => 6,
+    }
 }

@@ -1,15 +1,14 @@
 //! Warnings about a file that can be used: likely mistakes, and entries without effect.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::file::doubted::{doubted, guessed};
+use crate::file::doubted::{doubted, doubts, guessed};
 use crate::file::locate::DocumentPath;
 use crate::file::problem::ImportError;
+use crate::file::problem::{WarningKind, Warnings, first_of};
 use crate::file::read::build;
 use crate::file::read::workload::workload_tables;
-use crate::file::rounding;
 use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read, text_of};
-use crate::file::warning::{WarningKind, Warnings, first_of};
 use crate::format::plain::turns;
 use crate::format::significant;
 use crate::geom::expr::Expr;
@@ -152,7 +151,7 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     places(m, across, out);
     // What is told of a pair with its line need not be told again.
     let told = out.len() > before;
-    let rounded = rounding::doubts(m).into_iter();
+    let rounded = doubts(m).into_iter();
     let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));
     out.extend(rounded.map(|kind| (DocumentPath::root("joint"), kind)));
 }

@@ -2,7 +2,6 @@
 
 pub mod coupling;
 mod joints;
-mod links;
 #[doc(hidden)]
 pub mod resolve;
 pub(crate) mod search;
@@ -10,8 +9,13 @@ pub mod value;
 pub mod workload;
 
 use crate::file::read::coupling::couplings;
+use crate::file::read::joints::{connected, contours, links};
+use crate::file::read::joints::{joints, states};
 use crate::file::read::resolve::zero_vector;
-use crate::file::read::search::ranking::{joint_types, ranking};
+use crate::file::read::search::search;
+use crate::file::read::search::{joint_types, ranking};
+use crate::file::read::value::LIMITS;
+use crate::file::read::value::quantity::tolerance;
 use crate::file::read::value::{ENTRIES, knowing, length_unit};
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
@@ -24,11 +28,6 @@ use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
 use itertools::Itertools;
-use joints::{joints, states};
-use links::{connected, contours, links};
-use search::search;
-use value::LIMITS;
-use value::tolerance::tolerance;
 
 /// Returns the claims of a file; reports those of an unknown topic.
 pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {

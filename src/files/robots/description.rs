@@ -6,7 +6,6 @@ pub(in crate::robots) mod coupling;
 pub(in crate::robots) mod digits;
 pub(in crate::robots) mod kinematics;
 pub(in crate::robots) mod loops;
-pub(in crate::robots) mod massless;
 pub(in crate::robots) mod origin;
 pub(in crate::robots) mod physical;
 
@@ -14,7 +13,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::problem::Read;
+use crate::robots::warning::Read;
 use crate::robots::warning::Report;
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};

@@ -4,7 +4,7 @@ use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
 use crate::robots::mechanism::series_of_single_joints::Names;
-use crate::robots::problem::{Read, syntax_problem};
+use crate::robots::warning::{Read, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 use std::ops::Range;

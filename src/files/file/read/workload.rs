@@ -2,7 +2,6 @@
 
 pub(crate) mod drive;
 pub(crate) mod grip;
-pub(crate) mod joint_loads;
 pub(crate) mod loads;
 pub mod motion;
 pub mod trajectory;

@@ -11,7 +11,7 @@ use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::problem::{Read, unsupported};
+use crate::robots::warning::{Read, unsupported};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
@@ -27,7 +27,10 @@ const SIMPLE: [([Left; 2], SimpleType); 6] = [
     ([Left::None, Left::None], ("Fixed", "FixedJoint")),
     ([Left::Along, Left::None], ("Revolute", "RevoluteJoint")),
     ([Left::None, Left::Along], ("Slider", "TranslationalJoint")),
-    ([Left::Along, Left::Along], ("Cylindrical", "CylindricalJoint")),
+    (
+        [Left::Along, Left::Along],
+        ("Cylindrical", "CylindricalJoint"),
+    ),
     ([Left::All, Left::None], ("Ball", "SphericalJoint")),
     ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
 ];
@@ -81,7 +84,11 @@ impl Origin {
 
 /// Returns a joint with additional freedoms, each a translation or a rotation and its direction in the world. `None` if there is
 /// no such type.
-pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) -> Option<SimpleType> {
+pub(crate) fn becomes(
+    origin: &Origin,
+    joint: JointId,
+    more: &[(bool, Vector)],
+) -> Option<SimpleType> {
     let part = origin.part(joint);
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
     let axis = frame.direction(part.axis);
@@ -131,11 +138,7 @@ pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Rea
             return Err(cannot(part, element, why));
         };
         match imported.format.word {
-            "asmt" => edits.replace(
-                element,
-                element.node().span.clone(),
-                ondsel.to_owned(),
-            ),
+            "asmt" => edits.replace(element, element.node().span.clone(), ondsel.to_owned()),
             _ => enumerated(origin, part, element, freecad, &mut edits)?,
         }
     }

@@ -12,8 +12,8 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::{Read, known, syntax_problem, too_large, unknown_name, unknown_word};
 use crate::robots::warning::Reader;
+use crate::robots::warning::{Read, known, syntax_problem, too_large, unknown_name, unknown_word};
 use serde_json::{Map, Value};
 
 /// Largest file, in bytes.

@@ -3,7 +3,7 @@
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
 use crate::robots::description::coupling::{Follows, mimics, settled, stand_in};
-use crate::robots::description::massless::Light;
+use crate::robots::description::physical::Light;
 use crate::robots::description::physical::{head, left_out, moving};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{

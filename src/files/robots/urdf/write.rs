@@ -5,13 +5,13 @@ use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
 use crate::robots::description::coupling::{mimics, settled, stand_in};
-use crate::robots::description::massless::Light;
+use crate::robots::description::physical::Light;
 use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
-use crate::robots::problem::ExportError;
+use crate::robots::warning::ExportError;
 use std::fmt::Write;
 
 /// The content of a file.
