@@ -7,21 +7,19 @@ mod digits;
 pub mod disk;
 mod doubted;
 pub mod edit;
-mod lengths;
 pub mod lint;
 pub mod locate;
 pub mod loose;
 pub mod problem;
 pub mod read;
-mod rounding;
 pub mod schema;
+mod shape;
 pub mod template;
 pub mod text;
-pub mod warning;
 pub mod write;
 
-use crate::file::locate::DocumentStep;
-use crate::file::problem::ProblemKind;
+use crate::file::locate::DocumentPath;
+use crate::file::problem::{ProblemKind, suggestion};
 use crate::geom::expr::{Expr, ExprError};
 use itertools::Itertools;
 use std::cell::{Cell, RefCell};
@@ -29,7 +27,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 
 /// A problem and the path of the item it concerns.
-pub(crate) type Finding = (Vec<DocumentStep>, ProblemKind);
+pub(crate) type Finding = (DocumentPath, ProblemKind);
 
 /// Maximum number of reported problems. A file of a few megabytes can have a hundred thousand, and each is located and drawn.
 pub(crate) const TOLD: usize = 100;
@@ -70,13 +68,15 @@ impl Findings {
     pub(crate) fn tell_unused(&self) {
         for name in self.names().filter(|n| !self.used.borrow().contains(*n)) {
             let at = self.key("parameter").key(name);
-            at.add(ProblemKind::UnusedParameter { name: name.into() });
+            at.add(format!(
+                "parameter \"{name}\" is never used; use it in an expression in quotes, such as \"2*{name}\", or remove it"
+            ));
         }
     }
 
     /// Returns the place of the whole file.
     pub(crate) fn root(&self) -> Place<'_> {
-        let path = Vec::new();
+        let path = DocumentPath::default();
         Place { path, out: self }
     }
 
@@ -94,7 +94,8 @@ impl Findings {
     pub(crate) fn into_findings(self) -> Vec<Finding> {
         let (mut told, count) = (self.told.into_inner(), self.more.get());
         if count > 0 {
-            told.push((Vec::new(), ProblemKind::More { count }));
+            let more = format!("{count} more problems are not listed; correct those above first");
+            told.push((DocumentPath::default(), more.into()));
         }
         told
     }
@@ -112,23 +113,26 @@ impl Findings {
 /// A place in the file. Its methods read values and report problems with them.
 #[derive(Clone)]
 pub(crate) struct Place<'f> {
-    path: Vec<DocumentStep>,
+    path: DocumentPath,
     pub(crate) out: &'f Findings,
 }
 
 impl<'f> Place<'f> {
     /// Returns the place of a key of the table at this place.
     pub(crate) fn key(&self, key: &str) -> Place<'f> {
-        self.step(DocumentStep::Key(key.to_owned()))
+        let path = self.path.key(key);
+        Place { path, ..*self }
+    }
+
+    /// Returns the place of a key itself, instead of its value.
+    pub(crate) fn name(&self, key: &str) -> Place<'f> {
+        let path = self.path.name(key);
+        Place { path, ..*self }
     }
 
     /// Returns the place of an entry of the list at this place.
     pub(crate) fn index(&self, i: usize) -> Place<'f> {
-        self.step(DocumentStep::Index(i))
-    }
-
-    fn step(&self, step: DocumentStep) -> Place<'f> {
-        let path = self.path.iter().cloned().chain([step]).collect();
+        let path = self.path.index(i);
         Place { path, ..*self }
     }
 
@@ -148,51 +152,60 @@ impl<'f> Place<'f> {
         list: &'e [T],
         what: &'static str,
     ) -> impl Iterator<Item = (Place<'f>, &'e T)> + use<'f, 'e, T> {
-        let count = list.len();
+        self.count_within(limit, list.len(), what);
+        self.entries(&list[..list.len().min(limit)])
+    }
+
+    /// Reports more items than a limit. Returns true if there are no more.
+    pub(crate) fn count_within(&self, limit: usize, count: usize, what: &str) -> bool {
         if count > limit {
-            self.add(ProblemKind::TooMany { what, count, limit });
+            self.add(format!(
+                "the file has {count} {what}, more than the {limit} allowed"
+            ));
         }
-        self.entries(&list[..count.min(limit)])
+        count <= limit
     }
 
     /// Reports a problem at this place.
-    pub(crate) fn add(&self, kind: ProblemKind) {
+    pub(crate) fn add(&self, kind: impl Into<ProblemKind>) {
         let mut told = self.out.told.borrow_mut();
         if told.len() < TOLD {
-            told.push((self.path.clone(), kind));
+            told.push((self.path.clone(), kind.into()));
         } else {
             self.out.more.set(self.out.more.get() + 1);
         }
     }
 
     /// Reports an unknown word.
-    pub(crate) fn unknown(
-        &self,
-        what: &'static str,
-        word: &str,
-        known: impl IntoIterator<Item: Display>,
-    ) {
-        let (word, known) = (word.to_owned(), known.into_iter().join(", "));
-        self.add(ProblemKind::UnknownWord { what, word, known });
+    pub(crate) fn unknown(&self, what: &str, word: &str, known: impl IntoIterator<Item: Display>) {
+        self.add(unknown_word(what, word, known));
     }
 
     /// Reports a value that is not allowed.
-    pub(crate) fn bad(&self, what: &'static str, value: impl ToString, allowed: &'static str) {
-        let value = value.to_string();
-        self.add(ProblemKind::BadQuantity {
-            what,
-            value,
-            allowed,
-        });
+    pub(crate) fn bad(&self, what: &str, value: impl Display, allowed: &str) {
+        self.add(format!("{what} {value} is out of range; give {allowed}"));
     }
 
     /// Reports a key that needs another key or condition.
-    pub(crate) fn needs(&self, key: &'static str, other: &'static str) {
-        self.key(key).add(ProblemKind::KeyNeeds { key, other });
+    pub(crate) fn needs(&self, key: &str, other: &str) {
+        self.key(key).add(format!("{key} needs {other}"));
     }
 
     /// Reports a key that cannot be combined with another key.
-    pub(crate) fn excludes(&self, key: &'static str, other: &'static str) {
-        self.key(key).add(ProblemKind::KeyExcludes { key, other });
+    pub(crate) fn excludes(&self, key: &str, other: &str) {
+        self.key(key).add(format!(
+            "{key} and {other} exclude each other; keep one of them"
+        ));
     }
+}
+
+/// Returns the problem of an unknown word, with the known ones.
+pub(crate) fn unknown_word(
+    what: &str,
+    word: &str,
+    known: impl IntoIterator<Item: Display>,
+) -> ProblemKind {
+    let known = known.into_iter().join(", ");
+    let near = suggestion(word, &known);
+    format!("unknown {what} \"{word}\"; {near}known: {known}").into()
 }

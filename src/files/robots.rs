@@ -6,24 +6,22 @@ mod cad;
 mod description;
 mod edit;
 mod fcstd;
-mod foreign;
 pub mod formats;
 mod graph;
 mod import;
 mod mechanism;
 mod mjcf;
-mod problem;
 mod sdf;
 mod urdf;
 mod warning;
 mod xml;
 
+pub use crate::robots::formats::refuse as refuse_foreign;
+pub use crate::robots::formats::{begins_description, is_description};
+pub use crate::robots::warning::ExportError;
+pub use crate::robots::warning::{CadCount, Kept, Note, Options, Reader, Report};
 pub use description::origin::{ElementPlace, Origin};
-pub use foreign::refuse as refuse_foreign;
-pub use formats::{begins_description, is_description};
 pub use import::{Imported, import};
-pub use problem::ExportError;
-pub use warning::{CadCount, Kept, Note, Options, Reader, Report};
 
 use crate::file::problem::ImportError;
 use crate::geom::vector::Vector;
@@ -33,7 +31,7 @@ use crate::robots::cad::retype;
 use crate::robots::description::Part;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::comment;
-use crate::robots::problem::unsupported;
+use crate::robots::warning::unsupported;
 use std::collections::BTreeMap;
 
 /// Returns the freedoms that a redesign adds to the joints of a mechanism.

@@ -4,13 +4,13 @@ use super::disk::{Kind, OpenFile};
 use crate::api;
 use crate::file::edit::Thing;
 use crate::file::lint::check;
-use crate::file::locate::{Document, DocumentStep};
+use crate::file::locate::{Document, DocumentPath};
 use crate::file::loose;
+use crate::file::problem::WarningKind;
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::file::text::{read, text_of};
-use crate::file::warning::WarningKind;
 use crate::file::write::mechanism_file;
 use crate::geom::vector::real;
 use crate::model::mechanism::Mechanism;
@@ -198,9 +198,9 @@ impl Items {
         };
         let mut out = Vec::new();
         for what in [Thing::Link, Thing::Joint, Thing::Point] {
-            let list = [DocumentStep::Key(what.word().to_owned())];
+            let list = DocumentPath::root(what.word());
             for n in 0.. {
-                let path = [list[0].clone(), DocumentStep::Index(n)];
+                let path = list.index(n);
                 // The span of a list stands for that of an item that is not there.
                 let Some(span) = document
                     .span(&path)

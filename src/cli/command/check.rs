@@ -6,9 +6,9 @@ use crate::cli::option::{Global, load};
 use crate::cli::terminal::colour::{Tone, toned};
 use crate::cli::terminal::{Done, output};
 use crate::file::lint::{Checked, across, check};
-use crate::file::locate::DocumentStep;
+use crate::file::locate::DocumentPath;
+use crate::file::problem::Warnings;
 use crate::file::read::workload::tables_alone;
-use crate::file::warning::{WarningKind, Warnings};
 use crate::format::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::{Expected, Mechanism};
@@ -119,6 +119,7 @@ fn figures(e: &Expected, found: &StateAnalysis) -> [StatedFigure; 6] {
 
 /// Warns of the figures that the file states where the analysis finds others.
 fn stale(m: &Mechanism, warnings: &mut Warnings) {
+    let mut stale = Vec::new();
     for (i, e) in m.expected.iter().enumerate() {
         let Some(s) = m.state(&e.state) else {
             continue;
@@ -136,24 +137,16 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
                 continue;
             };
             if stated != found {
-                let path = [
-                    DocumentStep::Key("expected".to_owned()),
-                    DocumentStep::Index(i),
-                    DocumentStep::Key(key.to_owned()),
-                ];
-                let state = e.state.clone();
-                warnings.add(
-                    &path,
-                    WarningKind::Stale {
-                        key,
-                        state,
-                        stated,
-                        found,
-                    },
+                let path = DocumentPath::root("expected").index(i).key(key);
+                let message = format!(
+                    "the file states {key} = {stated} in state {}, but the analysis finds {found}; correct the figure, or delete [[expected]] if the mechanism differs from the published one",
+                    e.state
                 );
+                stale.push((path, message.into()));
             }
         }
     }
+    warnings.add(stale);
 }
 
 pub(in crate::cli) fn show(a: &Show) -> anyhow::Result<Done> {

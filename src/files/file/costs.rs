@@ -26,7 +26,7 @@ pub fn costs_from_str(
         let message = format!(
             "{why}; each line is a name and a number, such as spherical = 2 (`ozols show costs` prints them all)"
         );
-        ProblemKind::Syntax { message }.in_file(name, text, e.span())
+        ProblemKind::from(message).in_file(name, text, e.span())
     })?;
     let out = Findings::default();
     let spec = costs(&stated, mechanism, &out.root());

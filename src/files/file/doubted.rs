@@ -1,30 +1,34 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions, and directions of options
 //! that are not given and default to the joint's own, where they have another meaning.
 
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::lint::Found;
+use crate::file::locate::DocumentPath;
+use crate::file::problem::{WarningKind, first_of};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
-use crate::file::warning::{WarningKind, first_of};
 use crate::format::significant;
 use crate::geom::expr::Expr;
+use crate::geom::vector::{across, length, real, sub, unit};
 use crate::model::joint_type::JointType;
-use crate::model::mechanism::{Joint, Mechanism};
+use crate::model::mechanism::{Joint, JointId, Mechanism};
 use crate::model::rounded::ratio::{doubt, doubt_of};
+use crate::model::rounded::{looks_rounded, uncertainties};
+use crate::rank::rounded::nearly_special::{NearJoint, Reach, Relation, nearly_special, reach};
+use crate::rank::rounded::size;
+use crate::rank::rounded::verdict::{Meant, RankVerdict, verdict};
 
 /// Returns the doubtful values of the couplings and screws of a mechanism.
-pub(super) fn doubted(
-    file: &MechanismFile,
-    m: &Mechanism,
-) -> Vec<(Vec<DocumentStep>, WarningKind)> {
-    let root = |k: &str| vec![DocumentStep::Key(k.to_owned())];
+pub(super) fn doubted(file: &MechanismFile, m: &Mechanism) -> Found {
     let couplings = m.couplings.iter().enumerate().filter_map(|(i, c)| {
         let doubt = doubt_of(c)?;
-        let kind = WarningKind::DoubtedRatio {
-            coupling: c.name(m),
-            ratio: c.ratio.to_string(),
-            half: significant(doubt.half),
-            fraction: doubt.fraction.to_string(),
-        };
-        Some((key(&index(&root("coupling"), i), "ratio"), kind))
+        let message = format!(
+            "the ratio {} of {} is a decimal, known to within {}; write ratio = \"{}\" if that is intended, or another fraction",
+            c.ratio,
+            c.name(m),
+            significant(doubt.half),
+            doubt.fraction
+        );
+        let path = DocumentPath::root("coupling").index(i).key("ratio");
+        Some((path, message.into()))
     });
     let screws = file.joint.iter().zip(&m.joints).enumerate();
     let screws = screws.filter_map(|(i, (entry, joint))| {
@@ -34,12 +38,13 @@ pub(super) fn doubted(
         // The lead is what screws are made to.
         let lead = Expr::from_f64((pitch * &turn).to_f64()).ok()?;
         let lead = doubt(&pitch.scaled_as_written(lead, turn.to_f64()))?;
-        let kind = WarningKind::DoubtedPitch {
-            joint: joint.id.clone(),
-            pitch: pitch.to_string(),
-            lead: lead.simple()?.to_string(),
-        };
-        Some((key(&index(&root("joint"), i), "pitch"), kind))
+        let message = format!(
+            "the pitch {pitch} of joint \"{}\" is a decimal close to that of a simple lead; write lead = \"{}\" instead if that is intended",
+            joint.id,
+            lead.simple()?
+        );
+        let path = DocumentPath::root("joint").index(i).key("pitch");
+        Some((path, message.into()))
     });
     couplings.chain(screws).collect()
 }
@@ -51,21 +56,15 @@ const SHOWN: usize = 8;
 type Guess = (&'static str, &'static str, &'static str);
 
 /// Lists each option with guessed directions once, with the joints where it has them.
-pub(crate) fn guessed(
-    file: &MechanismFile,
-    m: &Mechanism,
-) -> Vec<(Vec<DocumentStep>, WarningKind)> {
-    let mut found: Vec<(Vec<DocumentStep>, String, Guess, Vec<&str>)> = Vec::new();
+pub(crate) fn guessed(file: &MechanismFile, m: &Mechanism) -> Found {
+    let mut found: Vec<(DocumentPath, String, Guess, Vec<&str>)> = Vec::new();
     for (i, (entry, joint)) in file.joint.iter().zip(&m.joints).enumerate() {
         let (list, at) = match &entry.options {
-            Some(list) => (list, index(&[DocumentStep::Key("joint".to_owned())], i)),
-            None => (
-                &file.search.options,
-                vec![DocumentStep::Key("search".to_owned())],
-            ),
+            Some(list) => (list, DocumentPath::root("joint").index(i)),
+            None => (&file.search.options, DocumentPath::root("search")),
         };
         for (n, item) in list.iter().enumerate() {
-            let path = index(&key(&at, "options"), n);
+            let path = at.key("options").index(n);
             let Some((name, guess)) = of_option(&item.table(), entry, joint) else {
                 continue;
             };
@@ -79,14 +78,10 @@ pub(crate) fn guessed(
     let told = found.into_iter().map(|(path, option, guess, joints)| {
         let (what, along, key) = guess;
         let joints = first_of(&joints, SHOWN);
-        let kind = WarningKind::Guessed {
-            option,
-            what,
-            along,
-            key,
-            joints,
-        };
-        (path, kind)
+        let message = format!(
+            "the {what} of option \"{option}\" is not given and is taken along {along} at {joints}; write a table with `{key}` if another is intended: {{ type = \"{option}\", {key} = [...] }}"
+        );
+        (path, message.into())
     });
     told.collect()
 }
@@ -140,4 +135,127 @@ fn faces(of: &JointType) -> bool {
         of,
         JointType::Planar | JointType::CylinderOnPlane | JointType::SphereOnPlane
     )
+}
+
+/// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
+const NEARLY: f64 = 1e-4;
+/// Pairs of joints told of.
+const TOLD: usize = 5;
+
+/// Returns the doubtful values.
+pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
+    let mut out = Vec::new();
+    if let Some(rounded) = looks_rounded(m).filter(|r| r.digits.is_some() && !r.pi) {
+        let message = format!(
+            "coordinates look measured or rounded: {rounded}; if the exact values are known, write them in quotes, such as \"sqrt(3)/2\" or \"cos(36deg)\"; otherwise give their uncertainty in a [tolerance] table"
+        );
+        out.push(message.into());
+    }
+    for state in m.state_ids() {
+        // Why there is no verdict is for `ozols analyze` to say.
+        let Ok(found) = verdict(m, state) else {
+            continue;
+        };
+        // What is meant has mostly the figures of what is written; only others are doubtful.
+        if !found.agrees() {
+            out.push(of_verdict(&found));
+        }
+    }
+    out.extend(by_default(m));
+    let all = nearly(m);
+    if !all.is_empty() {
+        let what = first_of(&all, TOLD);
+        out.push(WarningKind::NearlySpecial { what });
+    }
+    out
+}
+
+/// Returns a warning about second axes that use the default while other axes are rounded. They depend on the file's x, y and z,
+/// so the same mechanism rotated in space has others.
+fn by_default(m: &Mechanism) -> Option<WarningKind> {
+    let half = uncertainties(m)?;
+    let left = |(j, joint): &(JointId, &Joint)| {
+        let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
+        let types =
+            std::iter::once(&joint.joint_type).chain(joint.offered().map(|o| &o.joint_type));
+        half.axis[j.index()] != [0.0; 3]
+            && types.into_iter().any(JointType::has_second_axis)
+            && joint
+                .frame
+                .reference
+                .iter()
+                .all(|e| !given(e) && e.as_rational().is_some())
+    };
+    let all: Vec<(JointId, &Joint)> = m.joints_with_ids().filter(left).collect();
+    let (_, first) = all.first()?;
+    let axis = unit(real(&first.frame.axis));
+    let here = real(&first.frame.point);
+    let others = m
+        .joints
+        .iter()
+        .map(|other| across(sub(real(&other.frame.point), here), axis));
+    let towards = others.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
+    let towards = if length(towards) > 0.0 {
+        unit(towards)
+    } else {
+        return None;
+    };
+    let ids: Vec<&str> = all.iter().map(|(_, j)| j.id.as_str()).collect();
+    let [x, y, z] = towards;
+    let message = format!(
+        "the second axes of {} use the default, which depends on the file's x, y and z; the same mechanism rotated in space has other axes; write them out, such as reference = [{x:.6}, {y:.6}, {z:.6}] at {}",
+        first_of(&ids, TOLD),
+        first.id
+    );
+    Some(message.into())
+}
+
+fn of_verdict(found: &RankVerdict) -> WarningKind {
+    let figures = |rank: usize| {
+        let (w, sigma) = found.figures(rank);
+        format!("W = {w}, σ = {sigma}")
+    };
+    let state = &found.state;
+    if !found.is_decided() {
+        return format!("state {state}: {}", found.undecided()).into();
+    }
+    let understood = match &found.meant {
+        Meant::Snapped { understood, .. } => format!(". Understood: {understood}"),
+        _ => String::new(),
+    };
+    let (meant, written) = (figures(found.rank()), figures(found.as_written));
+    format!(
+        "state {state}: the idealised geometry gives {meant}, and the rounded digits as written give {written}; write roots or expressions such as \"sqrt(3)/2\", or more digits{understood}"
+    )
+    .into()
+}
+
+/// Lists pairs of joints that are nearly parallel, perpendicular, coaxial or concurrent, and their distances from it.
+fn nearly(m: &Mechanism) -> Vec<String> {
+    let least = Reach::relative(NEARLY, size(m));
+    let within = reach(m).map_or(least, |r| Reach {
+        length: r.length.max(least.length),
+        angle: r.angle.max(least.angle),
+    });
+    let all = nearly_special(m, within);
+    all.iter().filter_map(|x| words(m, x)).collect()
+}
+
+/// Describes a pair of joints, such as "LF and LR are 0.002 degrees from coaxial".
+fn words(m: &Mechanism, x: &NearJoint) -> Option<String> {
+    let strongest = x.relations.iter().max_by_key(|(r, of)| (*r, of.is_some()));
+    let (relation, other) = strongest?;
+    let (id, far) = (&m.joints[x.joint].id, x.far(m));
+    let special = match relation {
+        Relation::Parallel => "parallel",
+        Relation::Square => "square",
+        Relation::InPlane => "one plane",
+        Relation::Coaxial => "coaxial",
+        Relation::Meeting => "meeting",
+        Relation::Concentric => "concentric",
+    };
+    Some(match other {
+        Some(j) => format!("{} and {id} are {far} from {special}", m.joints[*j].id),
+        None => format!("{id} is {far} from {special} to a global axis"),
+    })
 }

@@ -1,15 +1,14 @@
 //! Warnings about a file that can be used: likely mistakes, and entries without effect.
 
 use crate::closure::contour::{Contour, contour_basis};
-use crate::file::doubted::{doubted, guessed};
-use crate::file::locate::{DocumentStep, index, key};
+use crate::file::doubted::{doubted, doubts, guessed};
+use crate::file::locate::DocumentPath;
 use crate::file::problem::ImportError;
+use crate::file::problem::{WarningKind, Warnings, first_of};
 use crate::file::read::build;
 use crate::file::read::workload::workload_tables;
-use crate::file::rounding;
 use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
 use crate::file::text::{read, text_of};
-use crate::file::warning::{WarningKind, Warnings, first_of};
 use crate::format::plain::turns;
 use crate::format::significant;
 use crate::geom::expr::Expr;
@@ -52,32 +51,22 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     let text = text_of(name, bytes)?;
     read(name, text, |file| {
         let mechanism = build(file)?;
-        let mut warnings = Warnings {
-            file: name.to_owned(),
-            text: text.to_owned(),
-            warnings: Vec::new(),
-        };
-        for (path, kind) in find(file, &mechanism) {
-            warnings.add(&path, kind);
-        }
         Ok(Checked {
-            mechanism,
             tables: workload_tables(file),
-            warnings,
+            warnings: Warnings::new(name, text, find(file, &mechanism)),
+            mechanism,
         })
     })
 }
 
-type Found = Vec<(Vec<DocumentStep>, WarningKind)>;
-
-fn root(k: &str) -> Vec<DocumentStep> {
-    vec![DocumentStep::Key(k.to_owned())]
-}
+/// What was found, each with the path of the item it concerns.
+pub(crate) type Found = Vec<(DocumentPath, WarningKind)>;
 
 fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut out = Found::new();
     if m.name.trim().is_empty() {
-        out.push((root("name"), WarningKind::NoName));
+        let empty = "the name is empty; give one, because every answer begins with it";
+        out.push((DocumentPath::root("name"), empty.into()));
     }
     ids(file, &mut out);
     drives(m, &mut out);
@@ -99,8 +88,11 @@ fn ids(file: &MechanismFile, out: &mut Found) {
         .map(|(n, id)| ("link", n, id))
         .chain(joints.map(|(n, id)| ("joint", n, id)));
     for (list, n, id) in all.filter(|(_, _, id)| id.contains(turns)) {
-        let path = key(&index(&root(list), n), "id");
-        out.push((path, WarningKind::TurnsLetters { id: id.to_owned() }));
+        let path = DocumentPath::root(list).index(n).key("id");
+        let message = format!(
+            "the id \"{id}\" has characters that reverse the order of letters; answers spell them out; remove them to show the id as it is read"
+        );
+        out.push((path, message.into()));
     }
 }
 
@@ -112,12 +104,14 @@ fn drives(m: &Mechanism, out: &mut Found) {
             continue;
         };
         if freedoms.len() > 1 && joint.drive_freedom.is_none() {
-            let kind = WarningKind::DriveUnnamed {
-                joint: joint.id.clone(),
-                freedoms: freedoms.iter().map(|f| f.name()).join(", "),
-                taken: taken.name(),
-            };
-            out.push((key(&index(&root("joint"), at), "drive"), kind));
+            let message = format!(
+                "joint \"{}\" has the freedoms {}, and the file does not state which one is driven; write drive = \"{}\" if it is the one that redesigns keep now, or name another",
+                joint.id,
+                freedoms.iter().map(|f| f.name()).join(", "),
+                taken.name()
+            );
+            let path = DocumentPath::root("joint").index(at).key("drive");
+            out.push((path, message.into()));
         }
     }
 }
@@ -140,19 +134,26 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let across = across(m);
     let metres = across * m.length_unit.metres;
     if file.length_unit.is_none() && metres > FORGOTTEN_UNIT {
-        let across = significant(metres);
-        out.push((root("name"), WarningKind::ForgottenUnit { across }));
+        let message = format!(
+            "the mechanism is {} m across, because lengths without a unit are in metres; add length_unit = \"mm\" if they are millimetres",
+            significant(metres)
+        );
+        out.push((DocumentPath::root("name"), message.into()));
     } else if across > 0.0 && !(SIZES.0..=SIZES.1).contains(&metres) {
-        let (across, unit) = (significant(metres), m.length_unit.symbol);
-        out.push((root("length_unit"), WarningKind::OddSize { across, unit }));
+        let message = format!(
+            "the mechanism is {} m across; check that length_unit = \"{}\" is correct",
+            significant(metres),
+            m.length_unit.symbol
+        );
+        out.push((DocumentPath::root("length_unit"), message.into()));
     }
     let before = out.len();
     places(m, across, out);
     // What is told of a pair with its line need not be told again.
     let told = out.len() > before;
-    let rounded = rounding::doubts(m).into_iter();
+    let rounded = doubts(m).into_iter();
     let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));
-    out.extend(rounded.map(|kind| (root("joint"), kind)));
+    out.extend(rounded.map(|kind| (DocumentPath::root("joint"), kind)));
 }
 
 /// Finds joints of one link that are nearly in one place. If many digits show that coordinates were measured, reports that
@@ -166,14 +167,16 @@ fn places(m: &Mechanism, across: f64, out: &mut Found) {
         let apart = distance(place(i), place(j));
         let near = apart > 0.0 && apart < SAME_PLACE * across;
         if near && i.links.iter().any(|l| j.links.contains(l)) {
-            let kind = WarningKind::NearlyOnePlace {
-                first: i.id.clone(),
-                second: j.id.clone(),
-                apart: significant(apart),
-                across: significant(across),
-                unit: m.length_unit.symbol,
-            };
-            out.push((key(&index(&root("joint"), b.index()), "point"), kind));
+            let unit = m.length_unit.symbol;
+            let message = format!(
+                "joints \"{}\" and \"{}\" are {} {unit} apart in a mechanism of {} {unit}; give both the same point if they should coincide",
+                i.id,
+                j.id,
+                significant(apart),
+                significant(across)
+            );
+            let path = DocumentPath::root("joint").index(b.index()).key("point");
+            out.push((path, message.into()));
         }
     }
 }
@@ -193,13 +196,13 @@ fn contours(m: &Mechanism, out: &mut Found) {
         })
         .collect();
     if !walked.contains(&true) {
-        out.push((root("joint"), WarningKind::NoContour));
+        out.push((DocumentPath::root("joint"), WarningKind::NoContour));
     } else {
         let open: Vec<JointId> = m.joint_ids().filter(|&j| !walked[j]).collect();
         if let Some(&first) = open.first() {
             let names = open.iter().map(|&j| m.joints[j].id.as_str()).collect_vec();
             let joints = first_of(&names, SHOWN);
-            let at = index(&root("joint"), first.index());
+            let at = DocumentPath::root("joint").index(first.index());
             out.push((at, WarningKind::OpenChain { joints }));
         }
     }
@@ -208,8 +211,9 @@ fn contours(m: &Mechanism, out: &mut Found) {
     let named = named.collect_vec();
     for (i, contour) in named.iter().enumerate() {
         if named[..i].contains(contour) || !bases.iter().flatten().contains(contour) {
-            let at = key(&index(&root("contour"), i), "joints");
-            out.push((at, WarningKind::DependentContour));
+            let at = DocumentPath::root("contour").index(i).key("joints");
+            let message = "this contour follows from the others of its state and is ignored; remove it or give another";
+            out.push((at, message.into()));
         }
     }
 }
@@ -217,41 +221,50 @@ fn contours(m: &Mechanism, out: &mut Found) {
 fn structure(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     let marked = |l: &LinkEntry| l.role.as_deref() == Some("output");
     if !file.link.iter().any(marked) {
-        out.push((root("link"), WarningKind::NoOutput));
+        out.push((DocumentPath::root("link"), WarningKind::NoOutput));
     }
     for (l, link) in m.links_with_ids() {
         if link.role != Role::Object {
             continue;
         }
-        let at = key(&index(&root("link"), l.index()), "id");
+        let at = DocumentPath::root("link").index(l.index()).key("id");
         let here = |s: StateId| {
             let of = |&j: &JointId| m.joints[j].links.contains(&l);
             m.joints_in(s).filter(of).count()
         };
         if here(StateId::FREE) > 0 {
-            let link = link.id.clone();
-            out.push((at, WarningKind::ObjectAlwaysThere { link }));
+            let message = format!(
+                "clamped part \"{}\" is present in the free state; give its joints a state, such as state = \"clamped\"",
+                link.id
+            );
+            out.push((at, message.into()));
             continue;
         }
         if let Some(s) = m.state_ids().find(|&s| here(s) == 1) {
-            let (link, state) = (link.id.clone(), m.states[s].clone());
-            out.push((at, WarningKind::Dangling { link, state }));
+            let message = format!(
+                "clamped part \"{}\" has a single joint in state {}; add the other contact that clamps it",
+                link.id, m.states[s]
+            );
+            out.push((at, message.into()));
         }
     }
     for (i, j) in m.joints_with_ids() {
-        let at = index(&root("joint"), i.index());
+        let at = DocumentPath::root("joint").index(i.index());
         if j.joint_type == JointType::Fixed && j.states.is_none() {
-            let kind = WarningKind::AlwaysFixed {
-                joint: j.id.clone(),
-                first: m.links[j.links[0]].id.clone(),
-                second: m.links[j.links[1]].id.clone(),
-            };
-            out.push((key(&at, "type"), kind));
+            let [first, second] = j.links.map(|l| &m.links[l].id);
+            let message = format!(
+                "joint \"{}\" is fixed in every state; merge the links \"{first}\" and \"{second}\", or give the joint a state",
+                j.id
+            );
+            out.push((at.key("type"), message.into()));
         }
         let twin = m.joints[..i.index()].iter().find(|o| twins(o, j));
         if let Some(o) = twin {
-            let (first, second) = (o.id.clone(), j.id.clone());
-            out.push((key(&at, "links"), WarningKind::Twin { first, second }));
+            let message = format!(
+                "joints \"{}\" and \"{}\" are identical; remove one",
+                o.id, j.id
+            );
+            out.push((at.key("links"), message.into()));
         }
     }
 }
@@ -275,7 +288,7 @@ fn option_name(o: &OptionEntry) -> Option<&str> {
 }
 
 fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
-    let at = root("search");
+    let at = DocumentPath::root("search");
     let changeable = m.joints.iter().any(|j| j.options.len() > 1);
     for (i, o) in file.search.options.iter().enumerate() {
         let Some(name) = option_name(o) else { continue };
@@ -285,7 +298,7 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             .any(|j| j.options.iter().any(|o| o.name == name));
         if changeable && !taken {
             let option = name.to_owned();
-            let path = index(&key(&at, "options"), i);
+            let path = at.key("options").index(i);
             out.push((path, WarningKind::UselessOption { option }));
         }
     }
@@ -297,27 +310,34 @@ fn search(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         .position(|j| matches!(j.unloading, Some(Unloading::Allowed(true))));
     if file.search.unloading.is_empty() {
         if let Some(j) = wants {
-            let joint = file.joint[j].id.clone();
-            let path = key(&index(&root("joint"), j), "unloading");
-            out.push((path, WarningKind::UnloadingOfNothing { joint }));
+            let message = format!(
+                "joint \"{}\" allows unloading joints, but [search] lists none; add unloading = [\"spherical\"] there",
+                file.joint[j].id
+            );
+            let path = DocumentPath::root("joint").index(j).key("unloading");
+            out.push((path, message.into()));
         }
     } else if !file.joint.iter().any(|j| asks(&j.unloading)) {
-        out.push((key(&at, "unloading"), WarningKind::UnloadingNowhere));
+        let message = "no joint allows an unloading joint, so this list has no effect; write unloading = true at a joint";
+        out.push((at.key("unloading"), message.into()));
     }
     for (i, j) in file.joint.iter().enumerate() {
         let list = j.options.as_ref().unwrap_or(&file.search.options);
         for (n, word) in j.forbid.iter().enumerate() {
             if !list.iter().any(|o| option_name(o) == Some(word)) {
-                let (joint, option) = (j.id.clone(), word.clone());
-                let path = index(&key(&index(&root("joint"), i), "forbid"), n);
-                out.push((path, WarningKind::ForbidsNothing { joint, option }));
+                let message = format!(
+                    "joint \"{}\" forbids \"{word}\", which is not an option of that joint; remove it, or correct the name",
+                    j.id
+                );
+                let path = DocumentPath::root("joint").index(i).key("forbid").index(n);
+                out.push((path, message.into()));
             }
         }
     }
 }
 
 fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
-    let at = root("workload");
+    let at = DocumentPath::root("workload");
     let loads = &m.loads;
     if !m.joints.iter().any(|j| j.drive) {
         let what = [
@@ -325,7 +345,10 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
             (file.workload.drive_speed.is_some(), "drive_speed"),
         ];
         if let Some((_, what)) = what.into_iter().find(|w| w.0) {
-            out.push((key(&at, what), WarningKind::NoDrive { what }));
+            let message = format!(
+                "no joint is a drive, so {what} has nothing to move; mark one with drive = true"
+            );
+            out.push((at.key(what), message.into()));
         }
     }
     let heavy = m
@@ -334,11 +357,16 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         .position(|l| l.mass.as_ref().is_some_and(|p| p.mass > 0.0));
     let moved = loads.drive_speeds.iter().any(|v| *v != 0.0);
     match (heavy, &loads.gravity) {
-        (None, Some(_)) => out.push((key(&at, "gravity"), WarningKind::GravityAlone)),
+        (None, Some(_)) => {
+            let message =
+                "no link has a mass, so gravity has no effect; add mass and centre to the links";
+            out.push((at.key("gravity"), message.into()));
+        }
         // A disc of a torsional drive takes its inertia from its link.
         (Some(l), None) if !moved && file.workload.drive.is_none() => {
-            let path = key(&index(&root("link"), l), "mass");
-            out.push((path, WarningKind::MassAlone));
+            let message = "masses have no effect without gravity or drive_speed; add gravity = [0, 0, -9.81] to [workload]";
+            let path = DocumentPath::root("link").index(l).key("mass");
+            out.push((path, message.into()));
         }
         _ => {}
     }
@@ -353,9 +381,9 @@ fn workload(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
         .flat_map(|r| &r.terms)
         .find_map(|(t, _)| matches!(t, Term::PeakForce | Term::PeakMoment).then(|| t.name()));
     if let Some(term) = asked.filter(|_| !loaded) {
-        out.push((
-            key(&root("ranking"), "terms"),
-            WarningKind::RankingUnloaded { term },
-        ));
+        let message = format!(
+            "the ranking uses {term}, but nothing loads the mechanism; add forces, moments, or masses with gravity"
+        );
+        out.push((DocumentPath::root("ranking").key("terms"), message.into()));
     }
 }

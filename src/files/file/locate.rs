@@ -6,35 +6,62 @@ use std::ops::Range;
 
 /// A step into a document.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum DocumentStep {
+enum Step {
     /// A key of a table.
     Key(String),
     /// A place in a list.
     Index(usize),
+    /// A key of a table, meant is the key itself rather than its value.
+    Name(String),
 }
 
-/// Returns a path extended by a key.
-pub(crate) fn key(path: &[DocumentStep], k: &str) -> Vec<DocumentStep> {
-    path.iter()
-        .cloned()
-        .chain([DocumentStep::Key(k.to_owned())])
-        .collect()
-}
+/// The path of an item of a document.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DocumentPath(Vec<Step>);
 
-/// Returns a path extended by a place in a list.
-pub(crate) fn index(path: &[DocumentStep], i: usize) -> Vec<DocumentStep> {
-    path.iter()
-        .cloned()
-        .chain([DocumentStep::Index(i)])
-        .collect()
-}
+impl DocumentPath {
+    /// Returns the path of a key of the whole document.
+    #[must_use]
+    pub fn root(key: &str) -> DocumentPath {
+        DocumentPath::default().key(key)
+    }
 
-/// Returns the last key of a path.
-pub(crate) fn last_key(path: &[DocumentStep]) -> Option<&str> {
-    path.iter().rev().find_map(|step| match step {
-        DocumentStep::Key(k) => Some(k.as_str()),
-        DocumentStep::Index(_) => None,
-    })
+    /// Returns the path of a key of the table at this path.
+    #[must_use]
+    pub fn key(&self, key: &str) -> DocumentPath {
+        self.then(Step::Key(key.to_owned()))
+    }
+
+    /// Returns the path of an entry of the list at this path.
+    #[must_use]
+    pub fn index(&self, i: usize) -> DocumentPath {
+        self.then(Step::Index(i))
+    }
+
+    /// Returns the path of a key itself, instead of its value.
+    pub(crate) fn name(&self, key: &str) -> DocumentPath {
+        self.then(Step::Name(key.to_owned()))
+    }
+
+    fn then(&self, step: Step) -> DocumentPath {
+        DocumentPath(self.0.iter().cloned().chain([step]).collect())
+    }
+
+    /// Returns the last key of the path.
+    pub(crate) fn last_key(&self) -> Option<&str> {
+        self.0.iter().rev().find_map(|step| match step {
+            Step::Key(k) | Step::Name(k) => Some(k.as_str()),
+            Step::Index(_) => None,
+        })
+    }
+
+    /// Returns the place in its list, if the path ends with one.
+    pub(crate) fn last_index(&self) -> Option<usize> {
+        match self.0.last()? {
+            Step::Index(i) => Some(*i),
+            _ => None,
+        }
+    }
 }
 
 /// A document whose items can be found; read once for all its problems.
@@ -61,23 +88,27 @@ impl<'t> Document<'t> {
         parsed.ok()?.value.map(Document::Json)
     }
 
-    /// Returns the bytes of the item at a path, or of the deepest part of the path that exists.
+    /// Returns the bytes of an item, or of the innermost existing thing around it.
     #[must_use]
-    pub fn span(&self, path: &[DocumentStep]) -> Option<Range<usize>> {
+    pub fn span(&self, path: &DocumentPath) -> Option<Range<usize>> {
         match self {
-            Document::Toml(document) => in_toml(document.as_item(), path),
-            Document::Json(root) => in_json(root, path),
+            Document::Toml(document) => in_toml(document.as_item(), &path.0),
+            Document::Json(root) => in_json(root, &path.0),
         }
     }
 }
 
-fn in_toml(root: &toml_edit::Item, path: &[DocumentStep]) -> Option<Range<usize>> {
+fn in_toml(root: &toml_edit::Item, path: &[Step]) -> Option<Range<usize>> {
     let mut item = root;
     let mut found = None;
     for step in path {
         let next = match step {
-            DocumentStep::Key(k) => item.get(k.as_str()),
-            DocumentStep::Index(i) => item.get(*i),
+            Step::Key(k) => item.get(k.as_str()),
+            Step::Index(i) => item.get(*i),
+            Step::Name(k) => {
+                let key = item.as_table_like().and_then(|t| t.key(k));
+                return key.and_then(toml_edit::Key::span).or(found);
+            }
         };
         let Some(next) = next else { break };
         item = next;
@@ -86,13 +117,17 @@ fn in_toml(root: &toml_edit::Item, path: &[DocumentStep]) -> Option<Range<usize>
     found
 }
 
-fn in_json(root: &ast::Value<'_>, path: &[DocumentStep]) -> Option<Range<usize>> {
+fn in_json(root: &ast::Value<'_>, path: &[Step]) -> Option<Range<usize>> {
     let mut at = root;
     let mut found = None;
     for step in path {
         let next = match (step, at) {
-            (DocumentStep::Key(k), ast::Value::Object(o)) => o.get(k).map(|p| &p.value),
-            (DocumentStep::Index(i), ast::Value::Array(a)) => a.elements.get(*i),
+            (Step::Key(k), ast::Value::Object(o)) => o.get(k).map(|p| &p.value),
+            (Step::Index(i), ast::Value::Array(a)) => a.elements.get(*i),
+            (Step::Name(k), ast::Value::Object(o)) => {
+                let name = o.get(k).map(|p| p.name.range());
+                return name.map(|r| r.start..r.end).or(found);
+            }
             _ => None,
         };
         let Some(next) = next else { break };

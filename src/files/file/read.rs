@@ -2,17 +2,20 @@
 
 pub mod coupling;
 mod joints;
-mod links;
 #[doc(hidden)]
 pub mod resolve;
 pub(crate) mod search;
 pub mod value;
 pub mod workload;
 
-use crate::file::locate::DocumentStep;
-use crate::file::problem::ProblemKind;
 use crate::file::read::coupling::couplings;
-use crate::file::read::search::ranking::{joint_types, ranking};
+use crate::file::read::joints::{connected, contours, links};
+use crate::file::read::joints::{joints, states};
+use crate::file::read::resolve::zero_vector;
+use crate::file::read::search::search;
+use crate::file::read::search::{joint_types, ranking};
+use crate::file::read::value::LIMITS;
+use crate::file::read::value::quantity::tolerance;
 use crate::file::read::value::{ENTRIES, knowing, length_unit};
 use crate::file::read::workload::drive::drive;
 use crate::file::read::workload::grip::grip;
@@ -25,11 +28,6 @@ use crate::model::claim::{Claim, Topic};
 use crate::model::loads::Loads;
 use crate::model::mechanism::{Expected, Mechanism, Mode, PointOfInterest, SearchSpec};
 use itertools::Itertools;
-use joints::{joints, states};
-use links::{connected, contours, links};
-use search::search;
-use value::LIMITS;
-use value::tolerance::tolerance;
 
 /// Returns the claims of a file; reports those of an unknown topic.
 pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
@@ -54,21 +52,19 @@ pub(crate) fn claims(file: &MechanismFile, out: &Findings) -> Vec<Claim> {
         .collect()
 }
 
-/// Refuses a file of too many entries before any of them is read.
-fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
-    for (what, count, limit) in [
+/// Returns true if no list of the file has too many entries; reports the first that has.
+fn few_enough(file: &MechanismFile, out: &Findings) -> bool {
+    let counts = [
         ("links", file.link.len(), LIMITS.0),
         ("joints", file.joint.len(), LIMITS.1),
         ("contours", file.contour.len(), LIMITS.1),
         ("couplings", file.coupling.len(), LIMITS.1),
         ("points", file.point.len(), LIMITS.1),
-    ] {
-        if count > limit {
-            let at = vec![DocumentStep::Key(what[..what.len() - 1].to_owned())];
-            return Err(vec![(at, ProblemKind::TooMany { what, count, limit })]);
-        }
-    }
-    Ok(())
+    ];
+    counts.into_iter().all(|(what, count, limit)| {
+        out.key(&what[..what.len() - 1])
+            .count_within(limit, count, what)
+    })
 }
 
 /// Builds a mechanism.
@@ -77,7 +73,9 @@ fn few_enough(file: &MechanismFile) -> Result<(), Vec<Finding>> {
 /// Returns the first hundred problems found.
 pub fn build(file: &MechanismFile) -> Result<Mechanism, Vec<Finding>> {
     let out = knowing(file);
-    few_enough(file)?;
+    if !few_enough(file, &out) {
+        return Err(out.into_findings());
+    }
     let length_unit = length_unit(file, &out);
     let mode = mode(file, &out);
     let links = links(file, &out);
@@ -155,8 +153,7 @@ fn mode(file: &MechanismFile, out: &Findings) -> Mode {
     let given = file.plane_normal.as_ref().map(|v| at.direction(v));
     let normal = given.unwrap_or_else(|| [0, 0, 1].map(Expr::from));
     if normal.iter().all(|c| c.to_f64() == 0.0) {
-        let (joint, what) = ("of the plane".to_owned(), "normal");
-        at.add(ProblemKind::ZeroVector { joint, what });
+        at.add(zero_vector("normal", "of the plane"));
     }
     Mode::Planar { normal }
 }
@@ -197,12 +194,10 @@ fn size(m: &Mechanism, out: &Findings) -> bool {
         let columns: usize = joints().map(|j| j.joint_type.freedoms().len()).sum();
         if dim * contours * columns > ENTRIES {
             fits = false;
-            out.root().add(ProblemKind::TooEntangled {
-                state: name.clone(),
-                rows: dim * contours,
-                columns,
-                limit: ENTRIES,
-            });
+            out.root().add(format!(
+                "the closure matrix of state {name} would have {} rows and {columns} columns, more than {ENTRIES} entries; remove irrelevant parts, or move independent parts to separate files",
+                dim * contours
+            ));
         }
     }
     fits

@@ -1,26 +1,23 @@
 //! The mechanism file, with one schema for TOML and JSON.
 
-mod grip;
-mod number;
-mod ranking;
 mod workload;
 
+pub use crate::file::schema::workload::ToleranceEntry;
+pub use crate::file::schema::workload::Words;
+pub use crate::file::schema::workload::{
+    ContactEntry, DriveEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry,
+    StiffnessEntry, StrokeEntry, WorkloadEntry,
+};
+pub use crate::file::schema::workload::{Coordinate, Quantities, Quantity};
+pub use crate::file::schema::workload::{DiameterSteps, Diameters, Gravity, GripEntry};
+pub use crate::file::schema::workload::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use crate::format::disjunction;
 use crate::model::joint_type::JointType;
-pub use grip::{DiameterSteps, Diameters, Gravity, GripEntry};
-pub use number::ToleranceEntry;
-pub use number::Words;
-pub use number::{Coordinate, Quantities, Quantity};
-pub use ranking::{JointTypeEntry, LimitEntry, RankingEntry, TermEntry};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-pub use workload::{
-    ContactEntry, DriveEntry, ForceEntry, InertiaEntry, MisalignmentEntry, MomentEntry,
-    StiffnessEntry, StrokeEntry, WorkloadEntry,
-};
 
 /// A mechanism: links, joints, and the changes that a search may make.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
@@ -199,7 +196,7 @@ impl OptionEntry {
 }
 
 /// A joint option as a table.
-#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OptionTable {
     /// Joint type. Default: custom, if freedoms are given.

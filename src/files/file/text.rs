@@ -1,11 +1,10 @@
 //! Reading a mechanism from text. Control characters are not allowed in names, because they could control a terminal or break a
 //! table.
 
-use crate::file::lengths::wrong_lengths;
-use crate::file::locate::last_key;
-use crate::file::problem::{ImportError, ProblemKind, suggestion};
+use crate::file::problem::{ImportError, ProblemKind};
 use crate::file::read::build;
 use crate::file::schema::MechanismFile;
+use crate::file::shape::wrong_shapes;
 use crate::file::{Finding, Findings, Place, digits};
 use crate::model::mechanism::Mechanism;
 use serde_json::Value;
@@ -42,10 +41,12 @@ pub fn mechanism_from_str(name: &str, text: &str) -> Result<Mechanism, ImportErr
 
 /// Returns the text in the bytes of a file, if the file is not too large.
 pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> {
-    let limit = MAX_BYTES;
-    if bytes.len() > limit {
-        let bytes = bytes.len();
-        return Err(ProblemKind::TooLarge { bytes, limit }.in_file(name, "", None));
+    if bytes.len() > MAX_BYTES {
+        let message = format!(
+            "the file has {} bytes, more than the {MAX_BYTES} allowed; split it or remove everything that is not a mechanism",
+            bytes.len()
+        );
+        return Err(ProblemKind::from(message).in_file(name, "", None));
     }
     utf8(bytes).map_err(|problem| problem.in_file(name, "", None))
 }
@@ -54,7 +55,7 @@ pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, ImportError> 
 pub(crate) fn utf8(bytes: &[u8]) -> Result<&str, ProblemKind> {
     std::str::from_utf8(bytes).map_err(|e| {
         let at = e.valid_up_to();
-        ProblemKind::NotUtf8 { at }
+        format!("the file is not UTF-8 text (byte {at}); save it as UTF-8").into()
     })
 }
 
@@ -65,25 +66,24 @@ pub fn read<T>(
     make: impl FnOnce(&MechanismFile) -> Result<T, Vec<Finding>>,
 ) -> Result<T, ImportError> {
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
-        return Err(ProblemKind::Empty.in_file(name, text, None));
+        let message = "the file is empty; `ozols schema` describes its contents";
+        return Err(ProblemKind::from(message).in_file(name, text, None));
     }
     let json = is_json(name);
     let located = |found| ImportError::located(name, text, json, found);
     // First of all, as the deserializer of TOML ignores the values that a list has too many.
-    let lengths = values(text, json).map(|all| wrong_lengths(&all));
-    if let Some(found) = lengths.filter(|found| !found.is_empty()) {
-        return Err(located(found));
+    let values = values(text, json).unwrap_or_default();
+    let shapes = wrong_shapes(&values);
+    if !shapes.is_empty() {
+        return Err(located(shapes));
     }
-    let file = if json {
-        from_json(text)
-    } else {
-        from_toml(text)
-    };
-    let mut file = file.map_err(|(message, span)| {
-        let message = with_remedy(message);
-        ProblemKind::Syntax { message }.in_file(name, text, span)
+    let parse = if json { from_json } else { from_toml };
+    let mut file = parse(text).map_err(|(message, span)| {
+        ProblemKind::from(with_remedy(message)).in_file(name, text, span)
     })?;
-    digits::keep(&mut file, text, json);
+    if let Some(Ok(kept)) = digits::kept(text, json, &values).map(|text| parse(&text)) {
+        file = kept;
+    }
     // Written out they are no TOML and no JSON: only what is escaped can hold any.
     let controls = if text.contains('\\') {
         controls(&file)
@@ -129,18 +129,6 @@ fn with_remedy(message: String) -> String {
     }
     if message == "floating-point number overflowed" {
         return format!("{message}; choose another length_unit");
-    }
-    if let Some(rest) = message.strip_prefix("unknown field `")
-        && let Some((word, known)) = rest.split_once("`, expected ")
-    {
-        let known = known
-            .trim_start_matches("one of ")
-            .replace('`', "")
-            .replace(" or ", ", ");
-        return format!(
-            "unknown key \"{word}\"; {}known: {known}",
-            suggestion(word, &known)
-        );
     }
     let missing = message.strip_prefix("missing field `");
     match missing.and_then(|rest| rest.strip_suffix('`')) {
@@ -205,11 +193,13 @@ fn below(value: &Value, at: &Place<'_>) {
 }
 
 fn check(text: &str, at: &Place<'_>) {
-    let key = last_key(&at.path).unwrap_or("the file");
+    let key = at.path.last_key().unwrap_or("the file");
     let allowed = |c: char| PROSE.contains(&key) && (c == '\n' || c == '\t');
     let found = text.chars().find(|&c| c.is_control() && !allowed(c));
     if let Some(found) = found {
-        let (key, found) = (key.to_owned(), found.escape_unicode().to_string());
-        at.add(ProblemKind::Control { key, found });
+        at.add(format!(
+            "{key} contains the control character {}; remove it",
+            found.escape_unicode()
+        ));
     }
 }

@@ -262,17 +262,11 @@ fn option(m: &Mechanism, o: &JointOption, present: &Frame) -> OptionEntry {
         state: o.state.map(|s| m.states[s].clone()),
         ..OptionTable::default()
     };
-    let plain = table.freedoms.is_none()
-        && table.point.is_none()
-        && table.state.is_none()
-        && table.reference.is_none()
-        && table.pitch.is_none()
-        && table.name.is_none()
-        && table.cost.is_none();
-    match (plain, table.kind) {
-        (true, Some(word)) => OptionEntry::Word(word),
-        (_, kind) => OptionEntry::Table(Box::new(OptionTable { kind, ..table })),
+    let word = OptionEntry::Word(o.joint_type.name().to_owned());
+    if *word.table() == table {
+        return word;
     }
+    OptionEntry::Table(Box::new(table))
 }
 
 fn search(m: &Mechanism) -> SearchEntry {

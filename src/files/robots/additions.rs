@@ -5,8 +5,8 @@
 use crate::geom::rigid::RigidMotion;
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Ratio, Robot};
-use crate::robots::problem::{Read, known, unknown_name};
 use crate::robots::sdf::scene::{SdfScene, absolute, moves_with};
+use crate::robots::warning::{Read, known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeSet;
 

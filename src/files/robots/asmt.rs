@@ -2,11 +2,11 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
-use crate::robots::cad::holds::Holds;
+use crate::robots::cad::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
-use crate::robots::problem::{Read, bad_value, known, missing, unknown_name, unknown_word};
 use crate::robots::warning::{Options, Reader};
+use crate::robots::warning::{Read, bad_value, known, missing, unknown_name, unknown_word};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;

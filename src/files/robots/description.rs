@@ -6,7 +6,6 @@ pub(in crate::robots) mod coupling;
 pub(in crate::robots) mod digits;
 pub(in crate::robots) mod kinematics;
 pub(in crate::robots) mod loops;
-pub(in crate::robots) mod massless;
 pub(in crate::robots) mod origin;
 pub(in crate::robots) mod physical;
 
@@ -14,7 +13,7 @@ use crate::file::problem::ImportError;
 use crate::geom::rigid::{RigidMotion, perpendicular};
 use crate::geom::vector::{Vector, X, Z, cross};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::problem::Read;
+use crate::robots::warning::Read;
 use crate::robots::warning::Report;
 use crate::robots::xml::element::Element;
 use std::collections::{BTreeMap, BTreeSet};
@@ -186,7 +185,7 @@ impl Ratio {
 }
 
 /// A robot as read.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Robot {
     pub(in crate::robots) name: String,
     /// Names of the links.
@@ -221,8 +220,9 @@ pub(crate) struct Robot {
 }
 
 /// A unit of lengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum Unit {
+    #[default]
     Metre,
     Millimetre,
 }
@@ -256,21 +256,8 @@ impl Robot {
     pub(crate) fn new(name: &str) -> Robot {
         Robot {
             name: name.to_owned(),
-            links: Vec::new(),
-            joints: Vec::new(),
-            couplings: Vec::new(),
-            world: None,
-            floats: false,
-            shown: BTreeSet::new(),
-            frames: BTreeMap::new(),
-            places: Vec::new(),
-            unit: Unit::Metre,
-            known_to: None,
-            here_only: false,
-            assembly: false,
             options: &OPTIONS,
-            said: BTreeMap::new(),
-            report: Report::default(),
+            ..Robot::default()
         }
     }
 

@@ -3,10 +3,10 @@
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::mechanism::series_of_single_joints::unique;
-use crate::robots::problem::{Read, syntax_problem};
+use crate::robots::mechanism::series_of_single_joints::Names;
+use crate::robots::warning::{Read, syntax_problem};
 use crate::robots::xml::element::Element;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The freedoms that a joint gets: whether each slides, its direction in the world, and why, in words.
@@ -22,7 +22,7 @@ pub(crate) struct Edits<'a> {
     list: Vec<(usize, Range<usize>, String)>,
     /// Lines to stand as the last children of an element.
     children: BTreeMap<usize, Vec<String>>,
-    names: BTreeSet<String>,
+    names: Names,
 }
 
 impl<'a> Edits<'a> {
@@ -33,14 +33,14 @@ impl<'a> Edits<'a> {
             origin,
             list: Vec::new(),
             children: BTreeMap::new(),
-            names: named.map(str::to_owned).collect(),
+            names: Names(named.map(str::to_owned).collect()),
         }
     }
 
     /// Returns a name that no element has.
     pub(crate) fn name(&mut self, wanted: &str) -> String {
         let nth = |n| format!("{wanted}_{n}");
-        unique(&mut self.names, wanted.to_owned(), nth)
+        self.names.unique(wanted.to_owned(), nth)
     }
 
     fn text(&self, e: Element<'_>) -> &'a str {

@@ -2,7 +2,6 @@
 
 mod brep;
 mod distance;
-mod joint;
 mod objects;
 mod reference;
 
@@ -10,11 +9,11 @@ use crate::geom::rigid::RigidMotion;
 use crate::robots::cad::archive::Archive;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
-use crate::robots::fcstd::joint::{Held, Shapes, Slide, frames, held};
+use crate::robots::fcstd::distance::{Held, Shapes, Slide, frames, held};
 use crate::robots::fcstd::objects::{Object, Objects};
 use crate::robots::fcstd::reference::{Documents, Reference, reference};
-use crate::robots::problem::{Read, known, syntax_problem, too_many, unknown_name};
 use crate::robots::warning::{Options, Reader};
+use crate::robots::warning::{Read, known, syntax_problem, too_many, unknown_name};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::collections::{BTreeMap, BTreeSet};

@@ -13,21 +13,21 @@ use crate::file::write::{self, Comment};
 use crate::geom::extent::diagonal;
 use crate::geom::rigid::RigidMotion;
 use crate::model::mechanism::Mechanism;
+use crate::robots::asmt;
 use crate::robots::cad::archive::Archive;
 use crate::robots::description::kinematics::spanning_tree;
 use crate::robots::description::origin::Origin;
 use crate::robots::description::{Robot, coupling, digits, loops};
 use crate::robots::fcstd::DOCUMENT;
-use crate::robots::formats::{Format, of_root, roots};
+use crate::robots::formats::{Format, of_root, refuse, roots};
 use crate::robots::mechanism::loop_closing::size;
 use crate::robots::mechanism::{
     Entries, apply_pose, close_loops, entries, held, loop_options, root_link,
 };
-use crate::robots::problem::{ExportError, syntax_problem};
+use crate::robots::warning::{ExportError, syntax_problem};
 use crate::robots::warning::{Options, Reader, Report};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
-use crate::robots::{asmt, foreign};
 
 /// A mechanism and how it came about.
 #[derive(Debug, Clone)]
@@ -88,7 +88,7 @@ pub fn import(
     read: Reader<'_>,
     options: &Options,
 ) -> Result<Imported, ImportError> {
-    foreign::refuse(name, bytes)?;
+    refuse(name, bytes)?;
     let mut document = Document::default();
     let archive = Archive::of(name, bytes);
     let root = root(&mut document, name, bytes, archive.as_ref())?;

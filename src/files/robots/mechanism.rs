@@ -18,8 +18,8 @@ use crate::robots::description::{Part, Robot, coupling, free};
 use crate::robots::mechanism::entries::{Bodies, Content};
 use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
 use crate::robots::mechanism::outputs::link_of;
-use crate::robots::problem::{bad_value, known, syntax_problem, unknown_name};
 use crate::robots::warning::Options;
+use crate::robots::warning::{bad_value, known, syntax_problem, unknown_name};
 use itertools::Itertools;
 use std::collections::BTreeSet;
 

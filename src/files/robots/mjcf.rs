@@ -1,7 +1,6 @@
 //! Reading, fixing and writing MJCF: bodies with joints in series, sites, equality constraints, default classes and includes.
 
 mod context;
-mod defaults;
 mod equality;
 pub(super) mod fix;
 mod include;
@@ -15,9 +14,9 @@ use crate::model::joint_type::JointType;
 use crate::robots::additions::leave_out;
 use crate::robots::description::{Part, Robot, free};
 use crate::robots::mjcf::context::{Context, compiler};
-use crate::robots::mjcf::defaults::{Defaults, Lookup};
-use crate::robots::problem::{Read, bad_value};
+use crate::robots::mjcf::context::{Defaults, Lookup};
 use crate::robots::warning::{Options, Reader};
+use crate::robots::warning::{Read, bad_value};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;

@@ -2,7 +2,6 @@
 //! as drawn.
 
 pub(super) mod fix;
-mod gearbox;
 mod include;
 pub(super) mod joints;
 pub(super) mod scene;
@@ -13,13 +12,13 @@ use crate::geom::vector::{length, scale};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, leave_out, plugin};
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::Read;
-use crate::robots::sdf::gearbox::gearbox;
 use crate::robots::sdf::include::Expanded;
+use crate::robots::sdf::joints::gearbox;
 use crate::robots::sdf::joints::{joint, weld};
 use crate::robots::sdf::scene::{
     BESIDE, Placed, SdfScene, absolute, end, insert, moves_with, resolve,
 };
+use crate::robots::warning::Read;
 use crate::robots::warning::{Options, Reader};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;

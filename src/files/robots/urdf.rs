@@ -9,8 +9,8 @@ use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
 use crate::robots::additions::{ball_constraint, couple, leave_out, named};
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
-use crate::robots::problem::{Read, bad_value, known, unknown_name};
 use crate::robots::warning::{Options, Reader};
+use crate::robots::warning::{Read, bad_value, known, unknown_name};
 use crate::robots::xml::Document;
 use crate::robots::xml::element::Element;
 

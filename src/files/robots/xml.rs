@@ -5,7 +5,7 @@ pub(crate) mod element;
 use crate::file::problem::ProblemKind;
 use crate::file::text;
 use crate::geom::vector::Vector;
-use crate::robots::problem::{Read, syntax_problem, too_deep, too_large, too_many};
+use crate::robots::warning::{Read, syntax_problem, too_deep, too_large, too_many};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::ops::Range;

@@ -100,7 +100,7 @@ fn check_doubts_what_is_likely_a_slip() {
 #[test]
 fn check_doubts_built_in_mechanisms_only_with_reason() {
     use ozols::file::lint::check;
-    use ozols::file::warning::WarningKind;
+    use ozols::file::problem::WarningKind;
     let mut doubted = 0;
     for name in builtin::names() {
         let text = builtin::text(name).unwrap();

@@ -4,7 +4,6 @@
 use crate::common::*;
 use crate::robots::mjcf::{mjcf, toml_of};
 use crate::robots::{figures, folder, none, read, refused};
-use ozols::file::schema::Coordinate;
 use ozols::robots::{Options, import};
 
 /// W and σ.
@@ -389,19 +388,4 @@ fn a_second_axis_is_carried_by_the_first() {
         let near = |(n, w): (&f64, f64)| (n - w).abs() < 1e-9;
         assert!(normal.iter().zip(wanted).all(near), "{normal:?}");
     }
-}
-
-/// Files that `ozols convert` of 0.2 wrote have all digits, and a comment that says how many of them are known.
-#[test]
-fn a_comment_says_how_well_places_are_known() {
-    let text = mjcf(
-        "<!-- ozols: places are known to 2e-5 m and 3e-6 rad by the digits of the file converted -->
-         <worldbody><body name='a'><joint/><body name='b' pos='0.1 0 0'><joint/></body></body></worldbody>",
-    );
-    let known = read("m.xml", &text).file.tolerance.unwrap();
-    let number = |c: Option<Coordinate>| match c {
-        Some(Coordinate::Decimal(x)) => x,
-        other => panic!("{other:?}"),
-    };
-    assert_eq!([known.length, known.direction].map(number), [2e-5, 3e-6]);
 }

@@ -4,7 +4,7 @@ use crate::closure::coupling::{coefficient, in_plane};
 use crate::file::problem::ProblemKind;
 use crate::file::read::resolve::contains_rates;
 use crate::file::schema::MechanismFile;
-use crate::file::{Findings, Place};
+use crate::file::{Findings, Place, unknown_word};
 use crate::geom::exact::ExactField;
 use crate::model::joint_type::{CoupledFreedom, Coupling, Freedom, JointType};
 use crate::model::mechanism::{JointId, JointOption, Mechanism};
@@ -21,23 +21,31 @@ pub(crate) fn couplings(file: &MechanismFile, mechanism: &mut Mechanism, out: &F
         let before = out.count();
         let ratio = at.key("ratio").number(&entry.ratio);
         if out.count() == before && ratio.to_f64() == 0.0 {
-            at.key("ratio").add(ProblemKind::ZeroRatio);
+            at.key("ratio").add("the ratio of a coupling is zero, which would lock the second joint; give another ratio, or make that joint fixed");
         }
         let &[a, b] = ends.as_slice() else { continue };
-        let [first, second] = [a, b].map(|e| mechanism.joints[e.joint].id.clone());
+        let [first, second] = [a, b].map(|e| &mechanism.joints[e.joint].id);
         let twice = |c: &Coupling| c.ends == [a, b] || c.ends == [b, a];
         let [i, j] = [a, b].map(|e| &mechanism.joints[e.joint]);
         if a.joint == b.joint {
-            joints.add(ProblemKind::CouplesItself { joint: first });
+            joints.add(format!(
+                "joint \"{first}\" is coupled with itself; name two joints (for a rotation and a translation that are coupled use a helical joint)"
+            ));
         } else if i.states != j.states {
-            joints.add(ProblemKind::CouplesStates { first, second });
+            joints.add(format!(
+                "joints \"{first}\" and \"{second}\" are coupled but are not present in the same states; give both the same state"
+            ));
         } else if mechanism.couplings.iter().any(twice) {
-            joints.add(ProblemKind::CoupledTwice { first, second });
+            joints.add(format!(
+                "joints \"{first}\" and \"{second}\" are coupled twice; keep one of the couplings"
+            ));
         } else {
             let (ends, gear) = ([a, b], entry.gear);
             let coupling = Coupling { ends, ratio, gear };
             if ExactField::for_expressions([&coefficient(mechanism, &coupling)], 0).is_err() {
-                at.add(ProblemKind::CouplingInexact { first, second });
+                at.add(format!(
+                    "the ratio of the axes' lengths of joints \"{first}\" and \"{second}\" has no exact value; give both an axis of length 1"
+                ));
             } else {
                 mechanism.couplings.push(coupling);
             }
@@ -81,26 +89,29 @@ fn freedom_of(
         coupled
             .iter()
             .map(|f| format!("{id}:{}", f.name()))
-            .join(", ")
+            .collect_vec()
     };
     let freedom = match (word, t.freedoms(), coupled.as_slice()) {
         (_, _, []) => {
-            let kind = t.name().to_owned();
-            return Err(ProblemKind::NothingToCouple { joint: id, kind });
+            return Err(format!(
+                "joint \"{id}\" of type {} has no freedom that can be coupled; couple translations and rotations about one axis (a spherical joint has no single axis)",
+                t.name()
+            )
+            .into());
         }
         (None, [only], _) => *only,
         (None, ..) => {
-            let known = known();
-            return Err(ProblemKind::WhichFreedom { joint: id, known });
+            return Err(format!(
+                "joint \"{id}\" has several freedoms; name the coupled one: {}",
+                known().join(", ")
+            )
+            .into());
         }
         (Some(word), ..) => match coupled.iter().find(|f| f.name() == word) {
             Some(f) => *f,
             None => {
-                return Err(ProblemKind::UnknownWord {
-                    what: "freedom to couple",
-                    word: format!("{id}:{word}"),
-                    known: known(),
-                });
+                let word = format!("{id}:{word}");
+                return Err(unknown_word("freedom to couple", &word, known()));
             }
         },
     };
@@ -128,8 +139,10 @@ fn offered(file: &MechanismFile, mechanism: &mut Mechanism, out: &Findings) {
         joint.options.retain(|o| {
             let keeps = keeps_coupled(o, &present, &coupled);
             if !keeps && file.joint[j].options.is_some() {
-                let (joint, option) = (joint.id.clone(), o.name.clone());
-                at.add(ProblemKind::LosesCoupling { joint, option });
+                at.add(format!(
+                    "option \"{}\" of joint \"{}\" does not keep the coupled freedom about the same axis; remove it",
+                    o.name, joint.id
+                ));
             }
             keeps
         });

@@ -1,15 +1,20 @@
 //! The joints: ends, type, place, the states they act in.
 
+use crate::closure::contour::closed_walk;
 use crate::file::problem::ProblemKind;
-use crate::file::read::resolve::{frame, joint_type, motion_name, option};
+use crate::file::read::resolve::{frame, joint_type, lacks, motion_name, option, takes_no};
 use crate::file::read::search::options;
 use crate::file::read::value::LIMITS;
-use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading};
+use crate::file::read::workload::loads::mass;
+use crate::file::schema::{DriveWord, JointEntry, MechanismFile, Unloading, Words};
 use crate::file::{Findings, Place};
 use crate::geom::expr::Expr;
 use crate::model::joint_type::{Freedom, JointType};
-use crate::model::mechanism::{Frame, Joint, JointOption, Link, LinkId, StateId};
+use crate::model::mechanism::{
+    Frame, Joint, JointId, JointOption, Link, LinkId, Mechanism, Role, StateId,
+};
 use itertools::Itertools;
+use std::collections::BTreeSet;
 
 /// Most states of a mechanism.
 const MOST_STATES: usize = 100;
@@ -22,12 +27,9 @@ pub(crate) fn states(file: &MechanismFile, out: &Findings) -> Vec<String> {
         .chain(named)
         .unique()
         .collect_vec();
-    if states.len() > MOST_STATES {
-        let (what, count, limit) = ("states", states.len(), MOST_STATES);
-        out.key("joint")
-            .add(ProblemKind::TooMany { what, count, limit });
-        states.truncate(MOST_STATES);
-    }
+    out.key("joint")
+        .count_within(MOST_STATES, states.len(), "states");
+    states.truncate(MOST_STATES);
     states
 }
 
@@ -97,8 +99,10 @@ fn ends(entry: &JointEntry, links: &[Link], at: &Place<'_>) -> [LinkId; 2] {
     };
     let ends = [end(0), end(1)];
     if entry.links[0] == entry.links[1] {
-        let (joint, link) = (entry.id.clone(), entry.links[0].clone());
-        at.add(ProblemKind::SelfLoop { joint, link });
+        at.add(format!(
+            "joint \"{}\" connects link \"{}\" to itself; name two different links",
+            entry.id, entry.links[0]
+        ));
     }
     ends
 }
@@ -139,10 +143,7 @@ fn unloading(
 
 fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
     let (joint, kind) = (&entry.id, &entry.kind);
-    let missing = |what| {
-        let (joint, kind) = (joint.clone(), kind.clone());
-        at.add(ProblemKind::Missing { joint, kind, what });
-    };
+    let missing = |what| at.add(lacks(joint, kind, what));
     let point = at.key("point").vector(&entry.point);
     let axis = entry.axis.as_ref().map(|v| at.key("axis").direction(v));
     if axis.is_none() && !matches!(joint_type, JointType::Spherical | JointType::Fixed) {
@@ -160,9 +161,7 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
             missing("a lead, the translation per turn, such as lead = 5 (or a pitch, per radian)")
         }
         (Some((what, _)), false) => {
-            let (joint, kind) = (joint.clone(), kind.clone());
-            at.key(what)
-                .add(ProblemKind::Superfluous { joint, kind, what });
+            at.key(what).add(takes_no(joint, kind, what));
         }
         _ => {}
     }
@@ -170,4 +169,106 @@ fn place(entry: &JointEntry, joint_type: &JointType, at: &Place<'_>) -> Frame {
         .pitch(&entry.pitch, &entry.lead)
         .unwrap_or_else(|| Expr::from(0));
     frame(joint, point, axis, reference, pitch, at)
+}
+
+pub(crate) fn links(file: &MechanismFile, out: &Findings) -> Vec<Link> {
+    let mut links: Vec<Link> = Vec::new();
+    for (at, entry) in out.key("link").entries(&file.link) {
+        at.check_id("link", &entry.id, links.iter().any(|l| l.id == entry.id));
+        let role = match entry.role.as_deref() {
+            None => Role::Inner,
+            Some("frame" | "ground") => Role::Frame,
+            Some("output") => Role::Output,
+            Some("object" | "part") => Role::Object,
+            Some(word) => {
+                at.key("role")
+                    .unknown("role", word, ["frame", "output", "object"]);
+                Role::Inner
+            }
+        };
+        if let (Role::Frame, Some(first)) = (role, links.iter().find(|l| l.role == Role::Frame)) {
+            at.key("role").add(format!(
+                "link \"{}\" is a second frame after \"{}\"; keep only one role = \"frame\"",
+                entry.id, first.id
+            ));
+        }
+        let (id, mass) = (entry.id.clone(), mass(entry, &at));
+        links.push(Link { id, role, mass });
+    }
+    let has = |role| links.iter().any(|l| l.role == role);
+    if !has(Role::Frame) {
+        out.key("link")
+            .add("no link has the role \"frame\"; mark the fixed link with role = \"frame\"");
+    }
+    if !has(Role::Output) {
+        outputs(file, &mut links);
+    }
+    links
+}
+
+/// Makes all links that move in the free state outputs if no link is marked as one. Then no motion is idle, and a search keeps
+/// all motions.
+fn outputs(file: &MechanismFile, links: &mut [Link]) {
+    let is_free = |w: &Words| w.list().iter().any(|s| s == "free");
+    let free = file
+        .joint
+        .iter()
+        .filter(|j| j.state.as_ref().is_none_or(is_free));
+    let there: BTreeSet<&String> = free.flat_map(|j| &j.links).collect();
+    for link in links {
+        if link.role == Role::Inner && there.contains(&link.id) {
+            link.role = Role::Output;
+        }
+    }
+}
+
+/// Checks that every link is connected to the frame in each state in which it has joints.
+pub(crate) fn connected(mechanism: &Mechanism, out: &Findings) {
+    let at = |l: usize| out.key("link").index(l).key("id");
+    for (l, link) in mechanism.links_with_ids() {
+        if !mechanism.joints.iter().any(|j| j.links.contains(&l)) {
+            let link = link.id.clone();
+            at(l.index()).add(ProblemKind::Unused { link });
+        }
+    }
+    for (s, state) in mechanism.states_with_ids() {
+        let mut reached = vec![mechanism.frame()];
+        let mut next = 0;
+        let joints: Vec<JointId> = mechanism.joints_in(s).collect();
+        while let Some(&l) = reached.get(next) {
+            next += 1;
+            for &j in &joints {
+                let [a, b] = mechanism.joints[j].links;
+                for (from, to) in [(a, b), (b, a)] {
+                    if from == l && !reached.contains(&to) {
+                        reached.push(to);
+                    }
+                }
+            }
+        }
+        let all = mechanism.links_with_ids();
+        for (l, link) in all.filter(|(l, _)| !reached.contains(l)) {
+            let here = joints
+                .iter()
+                .any(|&j| mechanism.joints[j].links.contains(&l));
+            if here || (s == StateId::FREE && link.role == Role::Output) {
+                let (link, state) = (link.id.clone(), state.clone());
+                at(l.index()).add(ProblemKind::Disconnected { link, state });
+            }
+        }
+    }
+}
+
+pub(crate) fn contours(file: &MechanismFile, m: &Mechanism, out: &Findings) -> Vec<Vec<JointId>> {
+    let contour = |joints: &[String], at: Place<'_>| {
+        let named = at.entries(joints).filter_map(|(at, id)| at.joint(m, id));
+        let named: Vec<JointId> = named.collect();
+        if named.len() == joints.len() && closed_walk(m, &named).is_none() {
+            at.add("the joints of this contour do not form one closed loop; list them in order around the loop");
+        }
+        named
+    };
+    let all = out.key("contour").entries(&file.contour);
+    all.map(|(at, entry)| contour(&entry.joints, at.key("joints")))
+        .collect()
 }

@@ -3,7 +3,6 @@
 use crate::closure::coupling::length_ratio;
 use crate::closure::twist::{MotionSpace, joint_twists};
 use crate::file::Place;
-use crate::file::problem::ProblemKind;
 use crate::file::schema::{OptionEntry, OptionTable};
 use crate::geom::Scalars;
 use crate::geom::exact::ExactField;
@@ -16,6 +15,21 @@ use itertools::Itertools;
 
 pub(crate) fn zero3() -> [Expr; 3] {
     [0, 0, 0].map(Expr::from)
+}
+
+/// Returns the message of a direction that is zero.
+pub(crate) fn zero_vector(what: &str, of: &str) -> String {
+    format!("the {what} {of} is zero; give a direction such as [0, 0, 1]")
+}
+
+/// Returns the message of a joint that lacks what its type needs.
+pub(crate) fn lacks(joint: &str, kind: &str, what: &str) -> String {
+    format!("joint \"{joint}\" of type {kind} needs {what}")
+}
+
+/// Returns the message of a key that a joint of some type does not have.
+pub(crate) fn takes_no(joint: &str, kind: &str, what: &str) -> String {
+    format!("joint \"{joint}\" of type {kind} takes no {what}; remove it")
 }
 
 fn is_zero(v: &[Expr; 3]) -> bool {
@@ -50,11 +64,8 @@ pub(crate) fn frame(
     at: &Place<'_>,
 ) -> Frame {
     let mut axis = axis;
-    let joint = || joint.to_owned();
-    let zero = |what: &'static str| {
-        let joint = joint();
-        at.key(what).add(ProblemKind::ZeroVector { joint, what });
-    };
+    let of_joint = format!("of joint \"{joint}\"");
+    let zero = |what: &str| at.key(what).add(zero_vector(what, &of_joint));
     if is_zero(&axis) {
         zero("axis");
         axis = [0, 0, 1].map(Expr::from);
@@ -70,8 +81,9 @@ pub(crate) fn frame(
             across()
         }
         Some(r) if parallel(&r, &axis) => {
-            at.key("reference")
-                .add(ProblemKind::ParallelReference { joint: joint() });
+            at.key("reference").add(format!(
+                "the reference of joint \"{joint}\" is parallel to its axis; give another direction"
+            ));
             across()
         }
         Some(r) => r,
@@ -93,7 +105,6 @@ pub(crate) fn joint_type(
     at: &Place<'_>,
 ) -> Option<JointType> {
     let known = JointType::from_name(kind);
-    let names = || (joint.to_owned(), kind.to_owned());
     match (kind, freedoms) {
         (_, None) if known.is_some() => return known,
         ("custom", Some(words)) => {
@@ -101,13 +112,14 @@ pub(crate) fn joint_type(
             return Some(JointType::Custom(list));
         }
         ("custom", None) => {
-            let ((joint, kind), what) = (names(), "freedoms, such as freedoms = [\"rz\", \"tx\"]");
-            at.add(ProblemKind::Missing { joint, kind, what });
+            at.add(lacks(
+                joint,
+                kind,
+                "freedoms, such as freedoms = [\"rz\", \"tx\"]",
+            ));
         }
         (_, Some(_)) if known.is_some() => {
-            let ((joint, kind), what) = (names(), "freedoms");
-            at.key(what)
-                .add(ProblemKind::Superfluous { joint, kind, what });
+            at.key("freedoms").add(takes_no(joint, kind, "freedoms"));
         }
         _ => {
             let known = JointType::NAMED
@@ -126,8 +138,9 @@ fn custom_freedoms(joint: &str, words: &[String], at: &Place<'_>) -> Vec<Freedom
     for (at, w) in at.entries(words) {
         match Freedom::from_name(w) {
             Some(f) if list.contains(&f) => {
-                let (joint, freedom) = (joint.to_owned(), w.clone());
-                at.add(ProblemKind::RepeatedFreedom { joint, freedom });
+                at.add(format!(
+                    "joint \"{joint}\" names the freedom {w} twice; name it once"
+                ));
             }
             Some(f) => list.push(f),
             None => at.unknown("freedom", w, Freedom::ALL.iter().map(|(_, n)| n)),
@@ -140,8 +153,9 @@ impl Place<'_> {
     /// Returns a cost in thousandths; `None` if it is out of range, which is reported.
     pub(crate) fn cost(&self, value: f64) -> Option<i64> {
         if !(0.0..=1e6).contains(&value) {
-            let value = value.to_string();
-            self.add(ProblemKind::BadCost { value });
+            self.add(format!(
+                "cost {value} must be a finite number from 0 to 1e6"
+            ));
             return None;
         }
         #[allow(clippy::cast_possible_truncation, reason = "at most 1e9")]

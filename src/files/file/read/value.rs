@@ -1,16 +1,15 @@
 //! Names, numbers and quantities, with what is allowed of each; how large a file may be, its unit of length, and `[parameter]`: numbers
 //! that expressions know by their names.
 
-pub(in crate::file::read) mod names;
-pub(crate) mod number;
 pub(crate) mod quantity;
-pub(in crate::file::read) mod tolerance;
 
-use crate::file::Findings;
-use crate::file::problem::ProblemKind;
-use crate::file::schema::MechanismFile;
-use crate::geom::expr::{Expr, WORDS};
-use crate::model::mechanism::LengthUnit;
+use crate::file::schema::{Coordinate, MechanismFile, Words};
+use crate::file::{Findings, Place};
+use crate::geom::expr::{Expr, ExprError, WORDS, WrittenNumber};
+use crate::model::mechanism::{JointId, LengthUnit, Link, LinkId, Mechanism, StateId};
+use itertools::Itertools;
+use num_bigint::BigInt;
+use num_rational::BigRational;
 use std::collections::BTreeMap;
 
 /// Most links, joints (and as many contours), and options of one joint in a file.
@@ -19,38 +18,24 @@ pub(crate) const LIMITS: (usize, usize, usize) = (2000, 4000, 64);
 /// Most entries of the closure matrix written out: 256 MB, and an elimination of some minutes.
 pub(crate) const ENTRIES: usize = 1 << 25;
 
-const UNITS: [LengthUnit; 5] = [
-    LengthUnit {
-        symbol: "m",
-        metres: 1.0,
-    },
-    LengthUnit {
-        symbol: "mm",
-        metres: 1e-3,
-    },
-    LengthUnit {
-        symbol: "cm",
-        metres: 1e-2,
-    },
-    LengthUnit {
-        symbol: "um",
-        metres: 1e-6,
-    },
-    LengthUnit {
-        symbol: "in",
-        metres: 0.0254,
-    },
+const UNITS: [(&str, f64); 5] = [
+    ("m", 1.0),
+    ("mm", 1e-3),
+    ("cm", 1e-2),
+    ("um", 1e-6),
+    ("in", 0.0254),
 ];
 
 /// Returns the file's unit of length.
 pub(crate) fn length_unit(file: &MechanismFile, out: &Findings) -> LengthUnit {
     let symbol = file.length_unit.as_deref().unwrap_or("m");
-    let found = UNITS.into_iter().find(|u| u.symbol == symbol);
-    found.unwrap_or_else(|| {
-        let known = UNITS.iter().map(|u| u.symbol);
+    let found = UNITS.into_iter().find(|u| u.0 == symbol);
+    let (symbol, metres) = found.unwrap_or_else(|| {
+        let known = UNITS.iter().map(|u| u.0);
         out.key("length_unit").unknown("length unit", symbol, known);
         UNITS[0]
-    })
+    });
+    LengthUnit { symbol, metres }
 }
 
 /// Most parameters.
@@ -59,9 +44,7 @@ const MOST: usize = 64;
 /// Returns the parameters of a file by name.
 fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
     let at = out.key("parameter");
-    if file.parameter.len() > MOST {
-        let (what, count, limit) = ("parameters", file.parameter.len(), MOST);
-        at.add(ProblemKind::TooMany { what, count, limit });
+    if !at.count_within(MOST, file.parameter.len(), "parameters") {
         return BTreeMap::new();
     }
     let mut all = BTreeMap::new();
@@ -70,7 +53,9 @@ fn parameters(file: &MechanismFile, out: &Findings) -> BTreeMap<String, Expr> {
         let first = name.starts_with(|c: char| c.is_ascii_alphabetic());
         let rest = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         if !first || !rest || WORDS.contains(&name.as_str()) {
-            at.add(ProblemKind::BadParameter { name: name.clone() });
+            at.add(format!(
+                "a parameter cannot be named {name:?}; use a letter followed by letters, digits or _, but not pi, deg, sqrt, cos, sin, tan or cot"
+            ));
         }
         all.insert(name.clone(), at.number(value));
     }
@@ -83,4 +68,182 @@ pub(crate) fn knowing(file: &MechanismFile) -> Findings {
     let all = parameters(file, &out);
     out.know(all);
     out
+}
+
+/// Most names listed where one is not known.
+const LISTED: usize = 30;
+
+impl Words {
+    /// Returns the words as a list.
+    pub(crate) fn list(&self) -> &[String] {
+        match self {
+            Words::One(word) => std::slice::from_ref(word),
+            Words::Many(words) => words,
+        }
+    }
+}
+
+impl Place<'_> {
+    /// Reports what is wrong with the name of an item. `twice` is true if another item has the same name.
+    pub(crate) fn check_id(&self, what: &str, id: &str, twice: bool) {
+        let at = self.key("id");
+        if id.is_empty() || id.chars().count() > 64 || id.chars().any(char::is_control) {
+            at.add(format!(
+                "an id must have 1 to 64 characters and no control characters, not {id:?}"
+            ));
+        }
+        if twice {
+            at.add(used_twice(what, id));
+        }
+    }
+
+    /// Returns the link with the given name; reports an unknown name.
+    pub(crate) fn link(&self, links: &[Link], id: &str) -> Option<LinkId> {
+        let found = links.iter().position(|l| l.id == *id).map(LinkId::new);
+        if found.is_none() {
+            let known = links.iter().take(LISTED).map(|l| l.id.as_str()).join(", ");
+            self.add(format!("unknown link \"{id}\"; known links: {known}"));
+        }
+        found
+    }
+
+    /// Returns the joint with the given name; reports an unknown name.
+    pub(crate) fn joint(&self, mechanism: &Mechanism, id: &str) -> Option<JointId> {
+        let found = mechanism.joint(id);
+        if found.is_none() {
+            self.unknown_joint(mechanism, id);
+        }
+        found
+    }
+
+    /// Reports an unknown joint.
+    pub(crate) fn unknown_joint(&self, mechanism: &Mechanism, id: &str) {
+        let mut ids = mechanism.joints.iter().map(|j| j.id.as_str()).take(LISTED);
+        let known = ids.join(", ");
+        self.add(format!("unknown joint \"{id}\"; known joints: {known}"));
+    }
+
+    /// Returns the states that an entry names; `None` if it names none, which means all.
+    pub(crate) fn states(&self, m: &Mechanism, named: Option<&Words>) -> Option<Vec<StateId>> {
+        let mut found = Vec::new();
+        for word in named?.list() {
+            match m.state(word) {
+                Some(state) => found.push(state),
+                None => self.unknown("state", word, m.states.iter().take(LISTED)),
+            }
+        }
+        Some(found)
+    }
+}
+
+/// Returns the message of an id that two things have.
+pub(crate) fn used_twice(what: &str, id: &str) -> String {
+    format!("{what} id \"{id}\" is used twice; ids must be unique")
+}
+
+/// Smallest nonzero and largest size of a coordinate.
+const RANGE: (f64, f64) = (1e-40, 1e12);
+/// A component of a direction that is a smaller part of the largest one is what a program makes of 0.
+const NOTHING: f64 = 1e-40;
+
+impl Place<'_> {
+    /// Returns a number in the range of lengths.
+    pub(crate) fn number(&self, c: &Coordinate) -> Expr {
+        self.in_range(self.read_number(c, false))
+    }
+
+    /// Returns three numbers in the range of lengths.
+    pub(crate) fn vector(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
+        [0, 1, 2].map(|i| self.index(i).number(&v[i]))
+    }
+
+    /// Returns a direction of any length. It is scaled by a power of ten if its numbers are outside the range of lengths.
+    pub(crate) fn direction(&self, v: &[Coordinate; 3]) -> [Expr; 3] {
+        let read = [0, 1, 2].map(|i| self.index(i).read_number(&v[i], false));
+        let largest = read.iter().map(|e| e.to_f64().abs()).fold(0.0, f64::max);
+        if read.iter().all(|e| is_usual(e.to_f64().abs())) {
+            return read;
+        }
+        let kept = read.map(|e| {
+            let nothing = e.written() != WrittenNumber::No && e.to_f64().abs() < NOTHING * largest;
+            if nothing { Expr::from(0) } else { e }
+        });
+        if largest == 0.0 || is_usual(largest) {
+            return kept;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "at most 324 in size")]
+        let power = largest.log10().floor() as i32;
+        let ten = BigRational::from_integer(BigInt::from(10));
+        let factor = Expr::rational(num_traits::Pow::pow(&ten, -power));
+        kept.map(|e| e.scaled_as_written(&e * &factor, 10f64.powi(-power)))
+    }
+
+    /// Returns the pitch of a screw per radian, from the pitch or from the lead, which is per turn; `None` if neither is given.
+    pub(crate) fn pitch(
+        &self,
+        pitch: &Option<Coordinate>,
+        lead: &Option<Coordinate>,
+    ) -> Option<Expr> {
+        if pitch.is_some() && lead.is_some() {
+            self.excludes("lead", "pitch");
+        }
+        if let Some(c) = pitch {
+            let at = self.key("pitch");
+            return Some(at.in_range(at.read_number(c, true)));
+        }
+        let lead = self.key("lead").number(lead.as_ref()?);
+        let turn = Expr::from(2) * Expr::pi();
+        if lead.is_zero_rational() {
+            return Some(lead);
+        }
+        let pitch = lead.div(&turn)?;
+        Some(lead.scaled_as_written(pitch, 1.0 / std::f64::consts::TAU))
+    }
+
+    fn in_range(&self, e: Expr) -> Expr {
+        let size = e.to_f64().abs();
+        // An irrational expression may cancel to zero, and is then zero; a number that is too small for doubles is not.
+        let lost = size == 0.0 && e.as_rational().is_some() && !e.is_zero_rational();
+        if is_usual(size) && !lost {
+            return e;
+        }
+        self.add(format!(
+            "coordinate {} is out of range; lengths may be 1e-40 to 1e12 in size; choose another length_unit",
+            short(&e)
+        ));
+        Expr::from(0)
+    }
+
+    fn read_number(&self, c: &Coordinate, pi_is_a_number: bool) -> Expr {
+        let parsed = match c {
+            Coordinate::Integer(i) => Ok(Expr::from(*i).written_as(WrittenNumber::Whole)),
+            Coordinate::Decimal(x) => Expr::from_f64(*x),
+            Coordinate::Expression(s) => self.out.expression(s, pi_is_a_number),
+        };
+        parsed.unwrap_or_else(|e| {
+            let known = self.out.names().join(", ");
+            let parameters = match e {
+                ExprError::UnknownWord { .. } if !known.is_empty() => {
+                    format!(", and the parameters {known}")
+                }
+                _ => String::new(),
+            };
+            self.add(format!("{e}{parameters}"));
+            Expr::from(0)
+        })
+    }
+}
+
+/// Returns true if a coordinate is 0 or of a size that can be calculated with.
+fn is_usual(size: f64) -> bool {
+    size == 0.0 || (RANGE.0..=RANGE.1).contains(&size)
+}
+
+/// Formats a number as written, or shortened if it does not fit into a line.
+fn short(e: &Expr) -> String {
+    let text = e.to_string();
+    match text.len() {
+        ..=40 => text,
+        _ => format!("{:e}", e.to_f64()),
+    }
 }

@@ -2,12 +2,11 @@
 
 pub(crate) mod drive;
 pub(crate) mod grip;
-pub(crate) mod joint_loads;
 pub(crate) mod loads;
 pub mod motion;
 pub mod trajectory;
 
-use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::problem::ImportError;
 use crate::file::read::build;
 use crate::file::read::claims;
 use crate::file::read::value::{knowing, length_unit};
@@ -43,10 +42,9 @@ pub struct WorkloadFile<T> {
 /// # Errors
 /// Returns every problem found, each with its place.
 pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec>, ImportError> {
-    let (table, example) = ("grip", "lever-gripper");
-    let missing = ProblemKind::NoWorkload { table, example };
+    let example = ("grip", "lever-gripper");
     let text = text_of(name, bytes)?;
-    read(name, text, |file| workload(file, grip, missing))
+    read(name, text, |file| workload(file, grip, example))
 }
 
 /// Reads `[workload.drive]`; names that end in `.json` are JSON, all others TOML.
@@ -54,10 +52,9 @@ pub fn grip_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<GripSpec
 /// # Errors
 /// Returns every problem found, each with its place.
 pub fn drive_from_bytes(name: &str, bytes: &[u8]) -> Result<WorkloadFile<DriveSpec>, ImportError> {
-    let (table, example) = ("drive", "torsion-module");
-    let missing = ProblemKind::NoWorkload { table, example };
+    let example = ("drive", "torsion-module");
     let text = text_of(name, bytes)?;
-    read(name, text, |file| workload(file, drive, missing))
+    read(name, text, |file| workload(file, drive, example))
 }
 
 /// Reads a file that has workload tables and no mechanism: its name and those of its tables; `None` for other files.
@@ -94,7 +91,7 @@ pub(crate) fn workload_tables(file: &MechanismFile) -> Vec<&'static str> {
 fn workload<T>(
     file: &MechanismFile,
     table: impl Fn(&MechanismFile, f64, Option<&Mechanism>, &Findings) -> Option<T>,
-    missing: ProblemKind,
+    (name, example): (&str, &str),
 ) -> Result<WorkloadFile<T>, Vec<Finding>> {
     let out = knowing(file);
     let mechanism = if file.link.is_empty() && file.joint.is_empty() {
@@ -106,7 +103,9 @@ fn workload<T>(
     let spec = table(file, length_unit.metres, mechanism.as_ref(), &out);
     let claims = claims(file, &out);
     if spec.is_none() && out.count() == 0 {
-        out.key("workload").add(missing);
+        out.key("workload").add(format!(
+            "the file has no [workload.{name}] table; `ozols show {example}` prints one to start from"
+        ));
     }
     match spec {
         Some(spec) if out.count() == 0 => Ok(WorkloadFile {

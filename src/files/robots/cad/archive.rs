@@ -1,7 +1,7 @@
 //! Zip archives, bounded: members read one by one, and an archive written again with one member changed.
 
 use crate::file::problem::ImportError;
-use crate::robots::problem::{syntax_problem, too_large};
+use crate::robots::warning::{syntax_problem, too_large};
 use crate::robots::xml::MAX_BYTES;
 use std::io::{Cursor, Read, Write};
 use zip::result::ZipError;

@@ -2,7 +2,7 @@
 //! its text the lines below it that have nothing below them.
 
 use crate::file::problem::ProblemKind;
-use crate::robots::problem::{Read, syntax_problem, too_deep, too_many};
+use crate::robots::warning::{Read, syntax_problem, too_deep, too_many};
 use crate::robots::xml::{Document, MAX_DEPTH, MAX_ELEMENTS, Node, Source};
 
 impl Document {

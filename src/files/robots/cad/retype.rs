@@ -11,49 +11,29 @@ use crate::robots::description::origin::Origin;
 use crate::robots::edit::Edits;
 use crate::robots::fcstd::DOCUMENT;
 use crate::robots::import::Imported;
-use crate::robots::problem::{Read, unsupported};
+use crate::robots::warning::{Read, unsupported};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
 /// Sines below this are none.
 const SAME: f64 = 1e-4;
 
-/// The types that a joint can be changed to in its place, without another element or figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Simple {
-    Fixed,
-    Revolute,
-    Slider,
-    Cylindrical,
-    Ball,
-    Parallel,
-}
+/// The names, in FreeCAD and in OndselSolver, of a type that a joint can be changed to in its place, without another element or
+/// figure.
+type SimpleType = (&'static str, &'static str);
 
-impl Simple {
-    /// Returns its name in FreeCAD.
-    pub(crate) fn freecad(self) -> &'static str {
-        match self {
-            Simple::Fixed => "Fixed",
-            Simple::Revolute => "Revolute",
-            Simple::Slider => "Slider",
-            Simple::Cylindrical => "Cylindrical",
-            Simple::Ball => "Ball",
-            Simple::Parallel => "Parallel",
-        }
-    }
-
-    /// Returns its name in OndselSolver.
-    fn ondsel(self) -> &'static str {
-        match self {
-            Simple::Fixed => "FixedJoint",
-            Simple::Revolute => "RevoluteJoint",
-            Simple::Slider => "TranslationalJoint",
-            Simple::Cylindrical => "CylindricalJoint",
-            Simple::Ball => "SphericalJoint",
-            Simple::Parallel => "ParallelAxesJoint",
-        }
-    }
-}
+/// The turns and the slides that each of these types leaves.
+const SIMPLE: [([Left; 2], SimpleType); 6] = [
+    ([Left::None, Left::None], ("Fixed", "FixedJoint")),
+    ([Left::Along, Left::None], ("Revolute", "RevoluteJoint")),
+    ([Left::None, Left::Along], ("Slider", "TranslationalJoint")),
+    (
+        [Left::Along, Left::Along],
+        ("Cylindrical", "CylindricalJoint"),
+    ),
+    ([Left::All, Left::None], ("Ball", "SphericalJoint")),
+    ([Left::Along, Left::All], ("Parallel", "ParallelAxesJoint")),
+];
 
 /// Which turns, or which slides, a joint leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +68,7 @@ impl Origin {
     /// there is no such type.
     #[must_use]
     pub fn becomes(&self, joint: JointId, more: &[(bool, Vector)]) -> Option<&'static str> {
-        becomes(self, joint, more).map(Simple::freecad)
+        becomes(self, joint, more).map(|(freecad, _)| freecad)
     }
 
     /// Returns true if a joint can be given a freedom in its place: a translation or rotation, and its direction.
@@ -104,7 +84,11 @@ impl Origin {
 
 /// Returns a joint with additional freedoms, each a translation or a rotation and its direction in the world. `None` if there is
 /// no such type.
-pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) -> Option<Simple> {
+pub(crate) fn becomes(
+    origin: &Origin,
+    joint: JointId,
+    more: &[(bool, Vector)],
+) -> Option<SimpleType> {
     let part = origin.part(joint);
     let frame = origin.places[part.links[0]].then(&part.sides[0]);
     let axis = frame.direction(part.axis);
@@ -118,26 +102,20 @@ pub(crate) fn becomes(origin: &Origin, joint: JointId, more: &[(bool, Vector)]) 
     }
     let whole: Vec<(bool, Vector)> = own.iter().chain(more).copied().collect();
     // A direction that the joint has already, but for rounding, makes it no other type.
-    let other = |then: &Simple| more.is_empty() || simple(&own, axis) != Some(*then);
+    let other = |then: &SimpleType| more.is_empty() || simple(&own, axis) != Some(*then);
     simple(&whole, axis).filter(other)
 }
 
 /// Returns the type with these freedoms, each a translation or a rotation and its direction, about an axis.
-fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<Simple> {
+fn simple(freedoms: &[(bool, Vector)], axis: Vector) -> Option<SimpleType> {
     let left = |slides: bool| {
         let all = freedoms.iter().filter(|(s, _)| *s == slides);
         let all: Vec<Vector> = all.map(|(_, d)| *d).collect();
         span(&all, axis)
     };
-    match (left(false), left(true)) {
-        (Left::None, Left::None) => Some(Simple::Fixed),
-        (Left::Along, Left::None) => Some(Simple::Revolute),
-        (Left::None, Left::Along) => Some(Simple::Slider),
-        (Left::Along, Left::Along) => Some(Simple::Cylindrical),
-        (Left::All, Left::None) => Some(Simple::Ball),
-        (Left::Along, Left::All) => Some(Simple::Parallel),
-        _ => None,
-    }
+    let all = [left(false), left(true)];
+    let found = SIMPLE.iter().find(|(left, _)| *left == all);
+    found.map(|(_, names)| *names)
 }
 
 /// Returns the file with the joint types that result from releases.
@@ -152,7 +130,7 @@ pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Rea
         let Some(element) = part.element.map(|e| origin.element(e)) else {
             continue;
         };
-        let Some(simple) = becomes(origin, joint, &more) else {
+        let Some((freecad, ondsel)) = becomes(origin, joint, &more) else {
             let why = format!(
                 "{} has no joint type with the required freedoms",
                 imported.format.name
@@ -160,12 +138,8 @@ pub(crate) fn retype(imported: &Imported, releases: &[(Release, String)]) -> Rea
             return Err(cannot(part, element, why));
         };
         match imported.format.word {
-            "asmt" => edits.replace(
-                element,
-                element.node().span.clone(),
-                simple.ondsel().to_owned(),
-            ),
-            _ => enumerated(origin, part, element, simple, &mut edits)?,
+            "asmt" => edits.replace(element, element.node().span.clone(), ondsel.to_owned()),
+            _ => enumerated(origin, part, element, freecad, &mut edits)?,
         }
     }
     let text = edits.apply()?;
@@ -211,10 +185,9 @@ fn enumerated(
     origin: &Origin,
     part: &Part,
     property: Element<'_>,
-    simple: Simple,
+    word: &str,
     edits: &mut Edits<'_>,
 ) -> Read<()> {
-    let word = simple.freecad();
     let list = property.child("CustomEnumList");
     let mut words = list.iter().flat_map(|l| l.named("Enum"));
     let place = words.position(|e| e.attribute("value") == Some(word));

@@ -152,23 +152,3 @@ pub(crate) fn mimics(m: &Mechanism, written: &[bool]) -> (Vec<Option<Follows>>, 
     };
     (follows, present.map(|(c, _)| unsaid(c)).collect())
 }
-
-/// Marks a place in a text that depends on a joint and is settled later; no name has such a character.
-const MARK: char = '\0';
-
-/// Stands in a text for what is known of a joint only when all are written.
-pub(crate) fn stand_in(joint: JointId) -> String {
-    format!("{MARK}{}{MARK}", joint.index())
-}
-
-/// Replaces the placeholders of a text by values that are known now.
-pub(crate) fn settled(text: &str, known: impl Fn(JointId) -> String) -> String {
-    let mut out = String::with_capacity(text.len());
-    for (i, part) in text.split(MARK).enumerate() {
-        match part.parse() {
-            Ok(joint) if i % 2 == 1 => out.push_str(&known(JointId::new(joint))),
-            _ => out.push_str(part),
-        }
-    }
-    out
-}

@@ -13,35 +13,12 @@ const LEAST: f64 = 1e-12;
 /// Maximum uncertainty of a place, as a fraction of the size of the mechanism, and of a direction, in radians.
 const MOST: f64 = 0.09;
 
-/// Begins the comment by which a file that `ozols convert` of 0.2 wrote says how well its places are known: its numbers have all
-/// digits, those that they were calculated from had not.
-const KNOWN: &str = "<!-- ozols: places are known to ";
-
-/// Returns what such a comment of a text says.
-fn stated_in(text: &str) -> Option<ToleranceEntry> {
-    let (_, rest) = text.split_once(KNOWN)?;
-    let (length, rest) = rest.split_once(" m and ")?;
-    let (direction, _) = rest.split_once(" rad")?;
-    let entry = |word: &str| {
-        let known = word.parse().ok().filter(|x: &f64| *x > 0.0 && *x < 1e9)?;
-        Some(Coordinate::Decimal(known))
-    };
-    Some(ToleranceEntry {
-        length: Some(entry(length)?),
-        direction: entry(direction),
-    })
-}
-
 /// Returns the tolerance of a mechanism made from the elements under a root, or `None` if no number there was rounded. The sizes
 /// are those of the robot and of the box around its joints, in metres.
 ///
 /// Each place is taken to be known as well as the number that is known least, a turn moving what is as far away as the robot
 /// is large.
 pub(crate) fn tolerance(root: Element<'_>, size: f64, across: f64) -> Option<ToleranceEntry> {
-    let source = &root.document.sources[root.node().source];
-    if let Some(known) = stated_in(&source.text) {
-        return Some(known);
-    }
     let mut found = Sources::default();
     let degrees = Expr::from_f64(1f64.to_radians()).ok()?;
     let mut unit = (root.name() == "mujoco").then(|| degrees.clone());

@@ -12,8 +12,8 @@ use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, Z, length};
 use crate::model::joint_type::JointType;
 use crate::robots::description::{Part, Robot};
-use crate::robots::problem::{Read, known, syntax_problem, too_large, unknown_name, unknown_word};
 use crate::robots::warning::Reader;
+use crate::robots::warning::{Read, known, syntax_problem, too_large, unknown_name, unknown_word};
 use serde_json::{Map, Value};
 
 /// Largest file, in bytes.
@@ -105,16 +105,12 @@ fn shapes(value: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     match value {
         Value::Object(o) if o.contains_key("closed_loop") => pairs(o, robot),
         Value::Object(o) if o.contains_key("loop") => {
-            for (i, item) in list(o, "loop")?.iter().enumerate() {
-                own(i, item, robot)?;
-            }
-            Ok(())
+            let mut all = list(o, "loop")?.iter().enumerate();
+            all.try_for_each(|(i, item)| own(i, item, robot))
         }
         Value::Array(items) if !items.is_empty() => {
-            for (i, item) in items.iter().enumerate() {
-                ball(i, item, robot)?;
-            }
-            Ok(())
+            let mut all = items.iter().enumerate();
+            all.try_for_each(|(i, item)| ball(i, item, robot))
         }
         _ => Err(syntax_problem(
             "no loops found; write [[loop]] tables with a, b and type, or closed_loop: [[a, b]] and type: [6d]",
@@ -141,7 +137,7 @@ fn word<'a>(v: Option<&'a Value>, what: &str) -> Result<&'a str, ProblemKind> {
 }
 
 /// Returns the link and place of a name: of a link or frame, or of the child's side of a joint.
-fn place(element: &str, name: &str, robot: &Robot) -> Result<(usize, RigidMotion), ProblemKind> {
+fn place(element: &str, name: &str, robot: &Robot) -> Result<End, ProblemKind> {
     if let Some(j) = robot.joints.iter().find(|j| j.id == name) {
         return Ok((j.links[1], j.sides[1]));
     }
@@ -162,9 +158,12 @@ fn joint_type(element: &str, word: &str) -> Result<JointType, ProblemKind> {
     })
 }
 
+/// A link and a place on it.
+type End = (usize, RigidMotion);
+
 fn put(
     element: &str,
-    ends: [(usize, RigidMotion); 2],
+    ends: [End; 2],
     kind: JointType,
     robot: &mut Robot,
 ) -> Result<(), ProblemKind> {
@@ -202,11 +201,9 @@ fn retyped(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind>
             let known = known("joints", robot.joints.iter().map(|j| &j.id));
             return Err(unknown_name("joint_name", "joint", name, &known));
         };
-        let axis = |letter: u8| match letter {
-            b'X' => Some(X),
-            b'Y' => Some(Y),
-            b'Z' => Some(Z),
-            _ => None,
+        let axis = |letter: u8| {
+            let known = [(b'X', X), (b'Y', Y), (b'Z', Z)];
+            known.into_iter().find(|a| a.0 == letter).map(|a| a.1)
         };
         let upper = kind.to_uppercase();
         let new = match upper.as_bytes() {
@@ -250,10 +247,8 @@ fn pairs(o: &Map<String, Value>, robot: &mut Robot) -> Result<(), ProblemKind> {
             None => JointType::Fixed,
             Some(t) => joint_type(&element, word(Some(t), "type")?)?,
         };
-        let mut ends = [(0, RigidMotion::IDENTITY); 2];
-        for (end, name) in ends.iter_mut().zip([a, b]) {
-            *end = place(&element, word(Some(name), "the end of a loop")?, robot)?;
-        }
+        let end = |name| place(&element, word(Some(name), "the end of a loop")?, robot);
+        let ends = [end(a)?, end(b)?];
         put(&element, ends, kind, robot)?;
     }
     for name in list(o, "name_mot")? {
@@ -288,69 +283,59 @@ fn vector(v: Option<&Value>, what: &str) -> Result<Option<Vector>, ProblemKind> 
     }
 }
 
+/// Reads an end of a loop: the keys of its link, frame or joint, of a point there and of an axis.
+fn end(element: &str, item: &Value, keys: [&str; 3], robot: &Robot) -> Result<End, ProblemKind> {
+    let [name, point, axis] = keys.map(|k| (item.get(k), format!("{k} of {element}")));
+    let (link, frame) = place(element, word(name.0, &name.1)?, robot)?;
+    let at = vector(point.0, &point.1)?.unwrap_or([0.0; 3]);
+    let direction = vector(axis.0, &axis.1)?.unwrap_or(Z);
+    if length(direction) < 1e-9 {
+        return Err(syntax_problem(format!(
+            "{} is zero; give a direction such as [0, 0, 1]",
+            axis.1
+        )));
+    }
+    let side = RigidMotion::shift(at).then(&RigidMotion::z_to(direction));
+    Ok((link, frame.then(&side)))
+}
+
+/// Reads a ball constraint of Drake.
 fn ball(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = format!("ball-{}", i + 1);
-    let mut ends = [(0, RigidMotion::IDENTITY); 2];
-    for (end, (body, point)) in ends
-        .iter_mut()
-        .zip([("body_A", "p_AP"), ("body_B", "p_BQ")])
-    {
-        let (body, point) = (
-            format!("ball_constraint_{body}"),
-            format!("ball_constraint_{point}"),
-        );
-        let (link, frame) = place(
-            &element,
-            word(item.get(&body), &format!("{body} of {element}"))?,
-            robot,
-        )?;
-        let at = vector(item.get(&point), &format!("{point} of {element}"))?.unwrap_or([0.0; 3]);
-        *end = (link, frame.then(&RigidMotion::shift(at)));
-    }
+    let end = |keys| end(&element, item, keys, robot);
+    let ends = [
+        end(["ball_constraint_body_A", "ball_constraint_p_AP", ""])?,
+        end(["ball_constraint_body_B", "ball_constraint_p_BQ", ""])?,
+    ];
     put(&element, ends, JointType::Spherical, robot)
 }
 
+/// The keys of a `[[loop]]`.
+const KEYS: [&str; 8] = [
+    "id", "a", "b", "type", "point_a", "point_b", "axis_a", "axis_b",
+];
+
+/// Reads a `[[loop]]`.
 fn own(i: usize, item: &Value, robot: &mut Robot) -> Result<(), ProblemKind> {
     let element = match item.get("id").and_then(Value::as_str) {
         Some(id) => id.to_owned(),
         None => format!("loop-{}", i + 1),
     };
-    if let Some(key) = item.as_object().and_then(|o| {
-        let known = [
-            "id", "a", "b", "type", "point_a", "point_b", "axis_a", "axis_b",
-        ];
-        o.keys().find(|k| !known.contains(&k.as_str()))
-    }) {
+    let mut keys = item.as_object().into_iter().flat_map(Map::keys);
+    if let Some(key) = keys.find(|k| !KEYS.contains(&k.as_str())) {
         return Err(syntax_problem(format!(
-            "{element} has the unknown key {key}; known: id, a, b, type, point_a, point_b, axis_a, axis_b"
+            "{element} has the unknown key {key}; known: {}",
+            KEYS.join(", ")
         )));
     }
     let kind = match item.get("type") {
         None => JointType::Spherical,
         some => joint_type(&element, word(some, "type")?)?,
     };
-    let mut ends = [(0, RigidMotion::IDENTITY); 2];
-    for (end, side) in ends.iter_mut().zip(["a", "b"]) {
-        let (link, frame) = place(
-            &element,
-            word(item.get(side), &format!("{side} of {element}"))?,
-            robot,
-        )?;
-        let key = |k: &str| format!("{k}_{side}");
-        let at = vector(item.get(key("point")), &key("point"))?.unwrap_or([0.0; 3]);
-        let axis = vector(item.get(key("axis")), &key("axis"))?.unwrap_or(Z);
-        if length(axis) < 1e-9 {
-            return Err(syntax_problem(format!(
-                "{} of {element} is zero; give a direction such as [0, 0, 1]",
-                key("axis")
-            )));
-        }
-        *end = (
-            link,
-            frame
-                .then(&RigidMotion::shift(at))
-                .then(&RigidMotion::z_to(axis)),
-        );
-    }
+    let end = |keys| end(&element, item, keys, robot);
+    let ends = [
+        end(["a", "point_a", "axis_a"])?,
+        end(["b", "point_b", "axis_b"])?,
+    ];
     put(&element, ends, kind, robot)
 }

@@ -2,19 +2,14 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{add_scaled, cross, dot, length, sub};
-use crate::robots::cad::holds::Holds;
-use crate::robots::fcstd::brep::ShapeKind;
+use crate::robots::cad::Holds;
+use crate::robots::fcstd::brep::{ShapeKind, kind};
+use crate::robots::fcstd::objects::Object;
+use crate::robots::fcstd::reference::Reference;
+use crate::robots::warning::Read;
 
 /// Below this two directions are one, and a line lies in a plane.
 const SINE: f64 = 1e-3;
-
-/// A distance joint read: what it holds, whether the two sides change places, and what is not known for sure.
-#[derive(Debug)]
-pub(crate) struct Distance {
-    pub(crate) holds: Holds,
-    pub(crate) swap: bool,
-    pub(crate) doubt: Option<&'static str>,
-}
 
 /// Returns the kind of an element by its name and that of its object, if its shape does not define it.
 pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
@@ -36,60 +31,48 @@ pub(crate) fn by_name(element: &str, object: &str) -> Option<ShapeKind> {
 /// Returns the constraint between two kinds, at frames in the assembly and with the distance of the joint.
 pub(crate) fn distance(
     kinds: [Option<ShapeKind>; 2],
-    frames: &[RigidMotion; 2],
+    frames: [RigidMotion; 2],
     value: f64,
-) -> Distance {
-    use ShapeKind::{Circle, Cone, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
+) -> Held {
+    use ShapeKind::{Circle, Curve, Cylinder, Line, Plane, Sphere, Surface, Torus, Vertex};
     let [a, b] = kinds.map(|k| k.unwrap_or(Surface));
-    let one = |swap: bool, holds: Holds| Distance {
+    let constraint = |a: ShapeKind, b: ShapeKind, swap: bool| {
+        // A distance from a plane may be on either side of it.
+        let off = |more: f64| (value.abs() + more).copysign(height(&frames, swap));
+        Some(match (a, b) {
+            (Vertex, Vertex) => Holds::PointPoint(value),
+            (Line | Circle(_), Line | Circle(_)) => Holds::LineLine(value + radius(a) + radius(b)),
+            (Plane, Plane) => Holds::Planar(off(0.0)),
+            (Plane, Cylinder(r)) => Holds::LineInPlane(off(r)),
+            (Plane, Line) => Holds::LineInPlane(off(0.0)),
+            (Plane, Sphere(r)) => Holds::PointInPlane(off(r)),
+            (Plane | Curve | Circle(_), Vertex) => Holds::PointInPlane(off(0.0)),
+            (Line, Vertex) => Holds::PointLine(value),
+            (Cylinder(r), Cylinder(s) | Torus(s)) | (Torus(r), Cylinder(s)) => {
+                Holds::LineLine(value + r + s)
+            }
+            (Cylinder(r) | Torus(r), Sphere(s)) => Holds::PointLine(value + r + s),
+            (Cylinder(r), Vertex) => Holds::PointLine(value + r),
+            (Sphere(r), Sphere(s)) => Holds::PointPoint(value + r + s),
+            (Sphere(r), Vertex) | (Vertex, Sphere(r)) => Holds::PointPoint(value + r),
+            _ => return None,
+        })
+    };
+    let swapped = || Some((constraint(b, a, true)?, true));
+    let found = constraint(a, b, false).map(|holds| (holds, false));
+    let (holds, swap) = found.or_else(swapped).unwrap_or_else(|| {
+        let planes = constraint(Plane, Plane, false);
+        (planes.unwrap_or(Holds::Planar(value)), false)
+    });
+    let found = Held {
         holds,
+        frames,
         swap,
         doubt: None,
     };
-    // A distance from a plane may be on either side of it.
-    let off = |swap: bool, more: f64| {
-        let there = height(frames, swap);
-        (value.abs() + more).copysign(there)
-    };
-    let found = match (a, b) {
-        (Vertex, Vertex) => one(false, Holds::PointPoint(value)),
-        (Line | Circle(_), Line | Circle(_)) => {
-            let more = radius(a) + radius(b);
-            one(false, Holds::LineLine(value + more))
-        }
-        (Plane, Plane) => one(false, Holds::Planar(off(false, 0.0))),
-        (Plane, Cylinder(r)) => one(false, Holds::LineInPlane(off(false, r))),
-        (Cylinder(r), Plane) => one(true, Holds::LineInPlane(off(true, r))),
-        (Plane, Line) => one(false, Holds::LineInPlane(off(false, 0.0))),
-        (Line, Plane) => one(true, Holds::LineInPlane(off(true, 0.0))),
-        (Plane, Sphere(r)) => one(false, Holds::PointInPlane(off(false, r))),
-        (Sphere(r), Plane) => one(true, Holds::PointInPlane(off(true, r))),
-        (Plane, Vertex) => one(false, Holds::PointInPlane(off(false, 0.0))),
-        (Vertex, Plane) => one(true, Holds::PointInPlane(off(true, 0.0))),
-        (Line, Vertex) => one(false, Holds::PointLine(value)),
-        (Vertex, Line) => one(true, Holds::PointLine(value)),
-        (Curve | Circle(_), Vertex) => one(false, Holds::PointInPlane(off(false, 0.0))),
-        (Vertex, Curve | Circle(_)) => one(true, Holds::PointInPlane(off(true, 0.0))),
-        (Cylinder(r), Cylinder(s) | Torus(s)) | (Torus(r), Cylinder(s)) => {
-            one(false, Holds::LineLine(value + r + s))
-        }
-        (Cylinder(r), Sphere(s)) | (Torus(r), Sphere(s)) => {
-            one(false, Holds::PointLine(value + r + s))
-        }
-        (Sphere(r), Cylinder(s) | Torus(s)) => one(true, Holds::PointLine(value + r + s)),
-        (Cylinder(r), Vertex) => one(false, Holds::PointLine(value + r)),
-        (Vertex, Cylinder(r)) => one(true, Holds::PointLine(value + r)),
-        (Sphere(r), Sphere(s)) => one(false, Holds::PointPoint(value + r + s)),
-        (Sphere(r), Vertex) | (Vertex, Sphere(r)) => one(false, Holds::PointPoint(value + r)),
-        (
-            Curve | Circle(_) | Line | Cone | Surface | Plane | Vertex | Torus(_) | Sphere(_)
-            | Cylinder(_),
-            _,
-        ) => one(false, Holds::Planar(off(false, 0.0))),
-    };
     match kinds {
         [Some(_), Some(_)] => found,
-        _ => unknown(kinds, frames, found),
+        _ => unknown(kinds, found),
     }
 }
 
@@ -112,20 +95,22 @@ fn radius(k: ShapeKind) -> f64 {
 }
 
 /// Determines unknown kinds of faces from the directions of the two frames at a solved pose, as far as possible.
-fn unknown(kinds: [Option<ShapeKind>; 2], frames: &[RigidMotion; 2], found: Distance) -> Distance {
+fn unknown(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
+    let frames = &found.frames;
     let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
     if length(cross(z, line)) > 1.0 - SINE {
         // A plane and a cylinder, the first of the two as the plane where nothing says otherwise.
-        return Distance {
+        return Held {
             holds: Holds::LineInPlane(height(frames, swap)),
             swap,
             doubt: Some(
                 "the kinds of its faces are not known; by their directions they are treated as a plane and a cylinder",
             ),
+            ..found
         };
     }
-    Distance {
+    Held {
         doubt: Some("the kinds of its elements are not known; they are treated as planes"),
         holds: match found.holds {
             Holds::Planar(_) => Holds::Planar(height(frames, false)),
@@ -150,5 +135,132 @@ pub(crate) fn rack(rack: &RigidMotion, pinion: &RigidMotion, slide: [f64; 3]) ->
     RigidMotion {
         rotation: [0, 1, 2].map(|i| [x[i], y[i], z[i]]),
         translation: rack.translation,
+    }
+}
+
+/// A reader of the text of a member of the archive. It returns `None` if the member is missing or not text.
+pub(crate) type Shapes<'a> = &'a dyn Fn(&str) -> Option<String>;
+
+/// The constraint of a joint, its frames in the assembly, and whether its two parts are swapped; or why it cannot be represented.
+#[derive(Debug)]
+pub(crate) struct Held {
+    pub(crate) holds: Holds,
+    pub(crate) frames: [RigidMotion; 2],
+    pub(crate) swap: bool,
+    pub(crate) doubt: Option<&'static str>,
+}
+
+/// The direction of a slide, and the part that has it: racks slide along one.
+pub(crate) type Slide<'a> = (Option<&'a str>, [f64; 3]);
+
+/// Returns the two frames of a joint in the assembly.
+///
+/// # Errors
+/// Returns an error if a number of a placement is invalid.
+pub(crate) fn frames(joint: &Object<'_>, ends: &[Reference<'_>; 2]) -> Read<[RigidMotion; 2]> {
+    let mut out = [RigidMotion::IDENTITY; 2];
+    for (i, end) in ends.iter().enumerate() {
+        let own = joint.placement(&format!("Placement{}", i + 1))?;
+        let own = own.unwrap_or(RigidMotion::IDENTITY);
+        out[i] = end.place.then(&end.inner).then(&own);
+    }
+    Ok(out)
+}
+
+/// Returns the constraint of a joint type. `None` for a type of FreeCAD that is not known here.
+///
+/// # Errors
+/// Returns an error if a figure is not a number.
+pub(crate) fn held(
+    word: &str,
+    joint: &Object<'_>,
+    ends: &[Reference<'_>; 2],
+    slides: &[Slide<'_>],
+    shapes: Shapes<'_>,
+) -> Read<Option<Held>> {
+    let frames = frames(joint, ends)?;
+    let figure = |name: &str| -> Read<f64> { Ok(joint.number(name)?.unwrap_or(0.0)) };
+    let plain = |holds| Held {
+        holds,
+        frames,
+        swap: false,
+        doubt: None,
+    };
+    Ok(Some(match word {
+        "Fixed" => plain(Holds::Fixed),
+        "Revolute" => plain(Holds::Revolute),
+        "Cylindrical" => plain(Holds::Cylindrical),
+        "Slider" => plain(Holds::Translational),
+        "Ball" => plain(Holds::Spherical),
+        "Parallel" => plain(Holds::ParallelAxes),
+        "Perpendicular" => plain(Holds::Angle(0.0)),
+        "Angle" => {
+            let degrees = match joint.property("Angle") {
+                Some(_) => figure("Angle")?,
+                None => figure("Distance")?,
+            };
+            // FreeCAD takes an angle of 0 as parallel axes.
+            if (degrees % 180.0).abs() < 1e-9 {
+                plain(Holds::ParallelAxes)
+            } else {
+                plain(Holds::Angle(degrees.to_radians().cos()))
+            }
+        }
+        "Distance" => {
+            let kinds = [0, 1].map(|i| of(&ends[i], shapes));
+            let found = distance(kinds, frames, figure("Distance")?);
+            let [a, b] = frames;
+            Held {
+                holds: found.holds.settled(),
+                frames: if found.swap { [b, a] } else { [a, b] },
+                ..found
+            }
+        }
+        "RackPinion" => pinion(figure("Distance")?, ends, frames, slides),
+        "Screw" => plain(Holds::Screw(figure("Distance")?)),
+        "Gears" => plain(Holds::Gear([figure("Distance")?, figure("Distance2")?])),
+        "Belt" => plain(Holds::Gear([figure("Distance")?, -figure("Distance2")?])),
+        _ => return Ok(None),
+    }))
+}
+
+/// Returns the kind of the element that a joint refers to.
+fn of(end: &Reference<'_>, shapes: Shapes<'_>) -> Option<ShapeKind> {
+    by_name(end.element, end.object).or_else(|| kind(&shapes(end.shape?)?, end.element))
+}
+
+/// Returns the rack and pinion; the rack is the part with a slide across the pinion's axis.
+fn pinion(
+    radius: f64,
+    ends: &[Reference<'_>; 2],
+    frames: [RigidMotion; 2],
+    slides: &[Slide<'_>],
+) -> Held {
+    let slide = |i: usize| {
+        let of_part = slides.iter().filter(|(p, _)| *p == ends[i].part);
+        let axis = frames[1 - i].rotation.map(|row| row[2]);
+        let mut across = of_part.filter(|(_, d)| length(cross(*d, axis)) > 0.5);
+        across.next().map(|(_, d)| *d)
+    };
+    let (i, found) = match (slide(0), slide(1)) {
+        (Some(d), _) => (0, Some(d)),
+        (None, found) => (1, found),
+    };
+    let Some(direction) = found else {
+        return Held {
+            holds: Holds::RackPinion(radius),
+            frames,
+            swap: false,
+            doubt: Some(
+                "neither part has a slider; the first is treated as the rack, along x of its frame",
+            ),
+        };
+    };
+    let there = rack(&frames[i], &frames[1 - i], direction);
+    Held {
+        holds: Holds::RackPinion(radius),
+        frames: [there, frames[1 - i]],
+        swap: i == 1,
+        doubt: None,
     }
 }

@@ -1,7 +1,7 @@
 //! The objects of a FreeCAD document and their properties.
 
 use crate::geom::rigid::RigidMotion;
-use crate::robots::problem::{Read, bad_value};
+use crate::robots::warning::{Read, bad_value};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 

@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::fcstd::objects::{Object, Objects};
-use crate::robots::problem::Read;
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 

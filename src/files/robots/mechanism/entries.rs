@@ -11,7 +11,7 @@ use crate::model::joint_type::{Freedom, JointType};
 use crate::robots::description::coupling::Usable;
 use crate::robots::description::kinematics::world_axes;
 use crate::robots::description::{Part, Robot};
-use crate::robots::mechanism::series_of_single_joints::unique;
+use crate::robots::mechanism::series_of_single_joints::Names;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name in a mechanism file, in characters.
@@ -36,29 +36,22 @@ impl Bodies {
     }
 }
 
-/// Names that fit a mechanism file: unique, not empty, short, without control characters.
-#[derive(Debug, Default)]
-pub(crate) struct Names {
-    used: BTreeSet<String>,
-}
-
-impl Names {
-    pub(crate) fn fit(&mut self, wanted: &str) -> String {
-        let plain: String = wanted
-            .chars()
-            .filter(|c| !c.is_control())
-            .take(LONGEST)
-            .collect();
-        let plain = if plain.is_empty() {
-            "unnamed".to_owned()
-        } else {
-            plain
-        };
-        unique(&mut self.used, plain.clone(), |n| {
-            let end = format!("~{n}");
-            plain.chars().take(LONGEST - end.len()).collect::<String>() + &end
-        })
-    }
+/// Returns a name that fits a mechanism file: unique, not empty, short, without control characters.
+fn fitting(names: &mut Names, wanted: &str) -> String {
+    let plain: String = wanted
+        .chars()
+        .filter(|c| !c.is_control())
+        .take(LONGEST)
+        .collect();
+    let plain = if plain.is_empty() {
+        "unnamed".to_owned()
+    } else {
+        plain
+    };
+    names.unique(plain.clone(), |n| {
+        let end = format!("~{n}");
+        plain.chars().take(LONGEST - end.len()).collect::<String>() + &end
+    })
 }
 
 /// The content of the file.
@@ -92,7 +85,7 @@ pub(crate) fn entries(c: &Content<'_>) -> (MechanismFile, Vec<Comment>) {
     let (links, ids) = links(c, &mut comments);
     let (mut names, mut joint_ids, mut joints) = (Names::default(), BTreeMap::new(), Vec::new());
     for &j in c.joints {
-        let id = names.fit(&c.robot.joints[j].id);
+        let id = fitting(&mut names, &c.robot.joints[j].id);
         joint_ids.insert(j, id.clone());
         if let Some(what) = &c.robot.joints[j].comment {
             comments.push(Comment::new("joint", joints.len(), what));
@@ -157,7 +150,7 @@ fn links(
     let order = std::iter::once(c.frame).chain(used.into_iter().filter(|&b| b != c.frame));
     let (mut names, mut ids, mut links) = (Names::default(), BTreeMap::new(), Vec::new());
     for b in order {
-        let id = names.fit(&c.robot.links[b]);
+        let id = fitting(&mut names, &c.robot.links[b]);
         let role = if b == c.frame {
             Some("frame")
         } else {

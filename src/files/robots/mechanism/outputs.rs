@@ -4,8 +4,8 @@ use crate::closure::tree::forest;
 use crate::file::problem::ProblemKind;
 use crate::robots::description::Robot;
 use crate::robots::mechanism::entries::Bodies;
-use crate::robots::problem::{known, syntax_problem, unknown_name};
 use crate::robots::warning::Options;
+use crate::robots::warning::{known, syntax_problem, unknown_name};
 use std::collections::BTreeSet;
 
 /// Last words of the names of end effectors.

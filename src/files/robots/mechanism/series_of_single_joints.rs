@@ -68,31 +68,26 @@ pub(crate) fn numbers(v: Vector) -> String {
     out
 }
 
-/// Unique names that robot formats take.
+/// The names in use.
 #[derive(Default)]
-pub(crate) struct Names {
-    used: BTreeSet<String>,
-}
+pub(crate) struct Names(pub(in crate::robots) BTreeSet<String>);
 
 impl Names {
+    /// Returns a unique name that robot formats take.
     pub(crate) fn fit(&mut self, wanted: &str) -> String {
         let plain = wanted.replace("::", ":");
-        unique(&mut self.used, plain.clone(), |n| format!("{plain}~{n}"))
+        self.unique(plain.clone(), |n| format!("{plain}~{n}"))
     }
-}
 
-/// Returns a name that is not used yet, and marks it as used: the first name, or the `nth` one with the smallest n from 2 on.
-pub(crate) fn unique(
-    used: &mut BTreeSet<String>,
-    first: String,
-    nth: impl Fn(usize) -> String,
-) -> String {
-    let (mut name, mut n) = (first, 2);
-    while !used.insert(name.clone()) {
-        name = nth(n);
-        n += 1;
+    /// Returns a name that is not used yet, and marks it as used: the first, or the `nth` one with the smallest n from 2 on.
+    pub(crate) fn unique(&mut self, first: String, nth: impl Fn(usize) -> String) -> String {
+        let (mut name, mut n) = (first, 2);
+        while !self.0.insert(name.clone()) {
+            name = nth(n);
+            n += 1;
+        }
+        name
     }
-    name
 }
 
 /// Escapes text for an attribute or element.

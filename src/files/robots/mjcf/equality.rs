@@ -5,7 +5,7 @@ use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::displacement;
 use crate::robots::description::{Part, Ratio, Robot};
 use crate::robots::mjcf::context::Context;
-use crate::robots::problem::{Read, bad_value, known};
+use crate::robots::warning::{Read, bad_value, known};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 

@@ -4,14 +4,14 @@
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, dot, sub};
 use crate::robots::description::Part;
-use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
+use crate::robots::description::physical::Light;
 use crate::robots::edit::{Edits, Freed, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
+use crate::robots::mjcf::context::Defaults;
 use crate::robots::mjcf::context::compiler;
-use crate::robots::mjcf::defaults::Defaults;
 use crate::robots::mjcf::weights::{self, Weight};
-use crate::robots::problem::Read;
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Includes: the children of another file's root in place of an element.
 
-use crate::robots::problem::{Read, unsupported};
 use crate::robots::warning::Reader;
+use crate::robots::warning::{Read, unsupported};
 use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::path::{Component, Path};

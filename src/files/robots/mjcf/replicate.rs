@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::mjcf::context::{Compiler, compiler};
-use crate::robots::problem::{Read, too_many};
+use crate::robots::warning::{Read, too_many};
 use crate::robots::xml::{Document, MAX_ELEMENTS};
 
 /// Puts frames with copies in place of all `<replicate>` elements below `root`, those within others first.

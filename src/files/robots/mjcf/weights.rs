@@ -1,20 +1,19 @@
 //! The weights of the bodies of an MJCF file: from their `<inertial>`, otherwise from their shapes.
 
-mod shape;
 mod weight;
 
-pub(super) use weight::Weight;
+pub(super) use crate::robots::mjcf::weights::weight::Weight;
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::description::Robot;
 use crate::robots::mjcf::Waiting;
 use crate::robots::mjcf::context::Compiler;
-use crate::robots::mjcf::defaults::Defaults;
-use crate::robots::problem::Read;
+use crate::robots::mjcf::context::Defaults;
+use crate::robots::mjcf::weights::weight::weight_of_shape;
+use crate::robots::mjcf::weights::weight::{Settings, together};
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
-use shape::weight_of_shape;
 use std::collections::BTreeMap;
-use weight::{Settings, together};
 
 /// Returns what the links weigh, in their frames; the robot is that of the same document.
 pub(super) fn read(root: Element<'_>, robot: &Robot) -> Read<BTreeMap<usize, Weight>> {

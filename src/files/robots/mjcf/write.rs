@@ -11,7 +11,7 @@ use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
-use crate::robots::problem::ExportError;
+use crate::robots::warning::ExportError;
 use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::drives::driven;
 use crate::statics::reactions::geometry::Geometry;

@@ -2,12 +2,12 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::robots::description::Part;
-use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
+use crate::robots::description::physical::Light;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{escape, numbers};
-use crate::robots::problem::Read;
 use crate::robots::sdf::include::is_old;
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 
 /// Gives joints freedoms.

@@ -2,7 +2,7 @@
 
 use crate::file::problem::ImportError;
 use crate::geom::rigid::RigidMotion;
-use crate::robots::problem::{Read, known, unknown_name};
+use crate::robots::warning::{Read, known, unknown_name};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 

@@ -2,8 +2,8 @@
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, LinkId, Mechanism, Role, StateId};
-use crate::robots::description::coupling::{Follows, mimics, settled, stand_in};
-use crate::robots::description::massless::Light;
+use crate::robots::description::coupling::{Follows, mimics};
+use crate::robots::description::physical::Light;
 use crate::robots::description::physical::{head, left_out, moving};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
@@ -52,6 +52,10 @@ pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
     for l in m.link_ids() {
         w.link(l);
     }
+    // Joints may follow later ones, so names come first.
+    for &j in &joints {
+        w.ids[j] = w.names.fit(&m.joints[j].id);
+    }
     for &j in &joints {
         w.joint(j);
     }
@@ -60,11 +64,9 @@ pub(crate) fn sdf(m: &Mechanism) -> FormattedFile {
         Some(_) => "1.11",
         None => "1.9",
     };
-    // Joints may follow later ones, whose names were not settled yet.
-    let body = settled(&w.body, |j| escape(&w.ids[j]));
     let name = escape(&m.name.replace("::", ":"));
     let above = head(m, "    ", &told);
-    let links = w.head;
+    let (links, body) = (w.head, w.body);
     let text = format!(
         "<?xml version=\"1.0\"?>\n<sdf version=\"{version}\">\n  <model name=\"{name}\">\n{above}{links}{body}  </model>\n</sdf>\n"
     );
@@ -112,8 +114,7 @@ impl SdfWriter<'_> {
     fn joint(&mut self, j: JointId) {
         let joint = &self.m.joints[j];
         let mut p = place(self.m, joint);
-        let id = self.names.fit(&joint.id);
-        self.ids[j].clone_from(&id);
+        let id = self.ids[j].clone();
         if joint.drive {
             let _ = writeln!(self.body, "    <!-- {} is driven -->", comment(&id));
         }
@@ -169,19 +170,16 @@ impl SdfWriter<'_> {
 
     /// Writes an axis with the joint it follows, if any.
     fn following(&self, j: JointId, axis: String) -> String {
-        match self.follows[j] {
-            Some(f) => axis.replacen("</axis>", &format!("{}</axis>", follow(f)), 1),
-            None => axis,
-        }
+        let Some(f) = self.follows[j] else {
+            return axis;
+        };
+        let mimic = format!(
+            "<mimic joint=\"{}\" axis=\"axis\"><multiplier>{}</multiplier><offset>0</offset><reference>0</reference></mimic></axis>",
+            escape(&self.ids[f.leader]),
+            number(f.ratio)
+        );
+        axis.replacen("</axis>", &mimic, 1)
     }
-}
-
-fn follow(f: Follows) -> String {
-    format!(
-        "<mimic joint=\"{}\" axis=\"axis\"><multiplier>{}</multiplier><offset>0</offset><reference>0</reference></mimic>",
-        stand_in(f.leader),
-        number(f.ratio)
-    )
 }
 
 fn axis(tag: &str, d: [f64; 3]) -> String {

@@ -1,11 +1,11 @@
 //! Joints of one more freedom in a URDF file: light links and joints put in between the parent
 //! of a joint, or the first link of a loop, and the joint.
 
-use crate::robots::description::massless::Light;
 use crate::robots::description::origin::Origin;
+use crate::robots::description::physical::Light;
 use crate::robots::edit::{Edits, Freeing};
 use crate::robots::mechanism::series_of_single_joints::{comment, escape, numbers};
-use crate::robots::problem::Read;
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 
 /// Gives joints freedoms. Inserted joints come before the joint: its child, its name and its followers stay.

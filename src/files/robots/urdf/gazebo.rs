@@ -5,10 +5,10 @@ use crate::geom::vector::length;
 use crate::robots::additions::{leave_out, plugin};
 use crate::robots::description::Robot;
 use crate::robots::description::kinematics::{places, spanning_tree};
-use crate::robots::problem::Read;
 use crate::robots::sdf::joints::joint;
 use crate::robots::sdf::named_place;
 use crate::robots::sdf::scene::{Placed, SdfScene, end, insert, resolve};
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
 
 /// Reads the additions of the `<gazebo>` elements below a root. All links and joints of the URDF are read before.

@@ -4,14 +4,14 @@ use crate::closure::tree::{TreeStep, spanning_tree};
 use crate::geom::vector::sub;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{JointId, Link, LinkId, Mechanism, StateId};
-use crate::robots::description::coupling::{mimics, settled, stand_in};
-use crate::robots::description::massless::Light;
+use crate::robots::description::coupling::{Follows, mimics};
+use crate::robots::description::physical::Light;
 use crate::robots::description::physical::{self, GRAM, inertial, left_out, moving};
 use crate::robots::formats::FormattedFile;
 use crate::robots::mechanism::series_of_single_joints::{
     Names, Single, comment, escape, number, numbers, place, singles,
 };
-use crate::robots::problem::ExportError;
+use crate::robots::warning::ExportError;
 use std::fmt::Write;
 
 /// The content of a file.
@@ -25,8 +25,8 @@ struct UrdfWriter<'a> {
     placed: Vec<Option<(String, [f64; 3])>>,
     /// Names of the joints.
     ids: Vec<String>,
-    /// Which joints are one joint of the tree.
-    single: Vec<bool>,
+    /// The joints that joints of the tree follow.
+    follows: Vec<Option<Follows>>,
     head: String,
     body: String,
 }
@@ -43,20 +43,32 @@ pub(crate) fn urdf(m: &Mechanism) -> Result<FormattedFile, ExportError> {
         joints: Names::default(),
         placed: vec![None; m.links.len()],
         ids: vec![String::new(); m.joints.len()],
-        single: vec![false; m.joints.len()],
+        follows: Vec::new(),
         head: String::new(),
         body: String::new(),
     };
     w.link(m.frame(), [0.0; 3]);
     let tree = spanning_tree(m, StateId::FREE);
+    let in_tree = |j: JointId| tree.iter().any(|s| s.joint == j);
+    let closing = m.joints_in(StateId::FREE).filter(|&j| !in_tree(j));
+    let closing: Vec<JointId> = closing.collect();
+    // Joints may follow later ones, so names come first.
+    for j in tree.iter().map(|s| s.joint).chain(closing.iter().copied()) {
+        w.ids[j] = w.joints.fit(&m.joints[j].id);
+    }
+    let mut single = vec![false; m.joints.len()];
+    for step in &tree {
+        single[step.joint] = kinds(m, step.joint, 1.0)?.len() == 1;
+    }
+    let (follows, unsaid) = mimics(m, &single);
+    w.follows = follows;
     for step in &tree {
         w.branch(step)?;
     }
-    let in_tree = |j: JointId| tree.iter().any(|s| s.joint == j);
-    for j in m.joints_in(StateId::FREE).filter(|&j| !in_tree(j)) {
+    for j in closing {
         w.closing(j)?;
     }
-    Ok(w.whole())
+    Ok(w.whole(unsaid))
 }
 
 impl UrdfWriter<'_> {
@@ -94,12 +106,6 @@ impl UrdfWriter<'_> {
         name
     }
 
-    fn id(&mut self, j: JointId) -> String {
-        let id = self.joints.fit(&self.m.joints[j].id);
-        self.ids[j].clone_from(&id);
-        id
-    }
-
     fn driven(&mut self, j: JointId, id: &str) {
         if self.m.joints[j].drive {
             let _ = writeln!(self.body, "  <!-- {} is driven -->", comment(id));
@@ -112,12 +118,11 @@ impl UrdfWriter<'_> {
         let (mut holder, origin) = self.placed[step.from].clone().unwrap_or_default();
         let p = place(self.m, &self.m.joints[j]);
         let mut at = sub(p.point, origin);
-        let id = self.id(j);
+        let id = self.ids[j].clone();
         let child = self.link(step.link, p.point);
         // The child moves the other way where the joint is passed backwards.
         let sign = if step.forward { 1.0 } else { -1.0 };
         let parts = kinds(self.m, j, sign)?;
-        self.single[j] = parts.len() == 1;
         for (i, (kind, axis)) in parts.iter().enumerate() {
             let held = if i + 1 == parts.len() {
                 child.clone()
@@ -129,7 +134,7 @@ impl UrdfWriter<'_> {
                 _ => self.joints.fit(&format!("{id}~{}", i + 1)),
             };
             let ends = [holder.as_str(), held.as_str()];
-            self.body += &tree_joint(&part, kind, ends, at, *axis, &stand_in(j));
+            self.body += &tree_joint(&part, kind, ends, at, *axis, &self.mimic(j));
             (holder, at) = (held, [0.0; 3]);
         }
         self.driven(j, &id);
@@ -141,7 +146,7 @@ impl UrdfWriter<'_> {
     fn closing(&mut self, j: JointId) -> Result<(), ExportError> {
         let joint = &self.m.joints[j];
         let p = place(self.m, joint);
-        let id = self.id(j);
+        let id = self.ids[j].clone();
         let [(mut a, mut from), (b, to)] = joint
             .links
             .map(|l| self.placed[l].clone().unwrap_or_default());
@@ -182,9 +187,17 @@ impl UrdfWriter<'_> {
         Ok(())
     }
 
-    fn whole(self) -> FormattedFile {
+    /// Returns the element of a joint that follows another.
+    fn mimic(&self, j: JointId) -> String {
+        self.follows[j].map_or(String::new(), |f| {
+            let leader = escape(&self.ids[f.leader]);
+            let ratio = number(f.ratio);
+            format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
+        })
+    }
+
+    fn whole(self, unsaid: Vec<String>) -> FormattedFile {
         let m = self.m;
-        let (follows, unsaid) = mimics(m, &self.single);
         let mut told = left_out(m);
         told.extend(unsaid);
         let frame = m.frame();
@@ -198,16 +211,8 @@ impl UrdfWriter<'_> {
                     .to_owned(),
             );
         }
-        // Only now is it known which joints are of the tree, and what they are called.
-        let body = settled(&self.body, |j| {
-            follows[j].map_or(String::new(), |f| {
-                let leader = escape(&self.ids[f.leader]);
-                let ratio = number(f.ratio);
-                format!("    <mimic joint=\"{leader}\" multiplier=\"{ratio}\" offset=\"0\"/>\n")
-            })
-        });
         let (name, above) = (escape(&m.name), physical::head(m, "  ", &told));
-        let head = self.head;
+        let (head, body) = (self.head, self.body);
         let text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{above}{head}{body}</robot>\n"
         );

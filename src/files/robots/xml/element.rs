@@ -2,7 +2,7 @@
 
 use crate::file::problem::{ImportError, ProblemKind};
 use crate::geom::vector::Vector;
-use crate::robots::problem::{
+use crate::robots::warning::{
     Read, bad_value, missing, syntax_problem, too_many, unknown_name, unknown_word, unsupported,
 };
 use crate::robots::xml::{Document, Node};

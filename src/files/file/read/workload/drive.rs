@@ -1,16 +1,14 @@
 //! The `[workload.drive]` table.
 
-mod inertias;
-mod programme;
-
 use crate::file::read::value::quantity::Bound;
+use crate::file::read::workload::grip::MECHANISM;
 use crate::file::schema::{DriveEntry, MechanismFile};
 use crate::file::{Findings, Place};
-use crate::model::drive::{Cam, Damping, DriveSpec, Push};
-use crate::model::mechanism::Mechanism;
-use inertias::{inertias, lacks};
-pub(crate) use programme::regular;
-use programme::{MOST, programme};
+use crate::geom::vector::{dot, real, scale, sub};
+use crate::model::drive::{Cam, Damping, DriveSpec, Payload, ProgrammeStep, Push};
+use crate::model::joint_type::JointType;
+use crate::model::loads::Inertia;
+use crate::model::mechanism::{Mechanism, StateId};
 
 fn damping(t: &Place<'_>, e: &DriveEntry) -> Option<Damping> {
     let viscous = t.not_negative("viscous_damping", &e.viscous_damping, 1.0);
@@ -131,4 +129,191 @@ fn push(t: &Place<'_>, e: &DriveEntry, twist: f64) -> Push {
     }
     let energy = t.not_negative("feed_energy", &e.feed_energy, 1.0);
     Push { energy, from }
+}
+
+/// Reports a key that the table lacks.
+pub(super) fn lacks(t: &Place<'_>, other: &str) {
+    t.add(format!("drive needs {other}"));
+}
+
+/// Returns the inertia of a link about the axis of its joint with the frame.
+fn link_inertia(t: &Place<'_>, id: &str, unit: f64, mechanism: Option<&Mechanism>) -> Option<f64> {
+    let key = "disc_link";
+    let Some(m) = mechanism else {
+        t.needs(key, MECHANISM);
+        return None;
+    };
+    let l = t.key(key).link(&m.links, id)?;
+    let hinge = m.joints_in(StateId::FREE).map(|j| &m.joints[j]).find(|j| {
+        j.joint_type == JointType::Revolute && j.links.contains(&l) && j.links.contains(&m.frame())
+    });
+    let mass = m.links[l].mass.as_ref();
+    let mass = mass.and_then(|p| Some((p, p.inertia.as_ref()?)));
+    let (Some(hinge), Some((body, inertia))) = (hinge, mass) else {
+        let other = "a link with mass, centre and inertia, and a revolute joint to the frame";
+        t.needs(key, other);
+        return None;
+    };
+    let (axis, point) = (real(&hinge.frame.axis), real(&hinge.frame.point));
+    let size = dot(axis, axis).sqrt();
+    let [x, y, z] = axis.map(|c| c / size);
+    let about = match *inertia {
+        Inertia::Plane(i) => i,
+        Inertia::Principal([a, b, c]) => a * x * x + b * y * y + c * z * z,
+        Inertia::Tensor([xx, yy, zz, xy, yz, zx]) => {
+            xx * x * x + yy * y * y + zz * z * z + 2.0 * (xy * x * y + yz * y * z + zx * z * x)
+        }
+    };
+    let from = scale(sub(real(&body.centre), point), unit);
+    let along = dot(from, [x, y, z]);
+    Some(about + body.mass * (dot(from, from) - along * along).max(0.0))
+}
+
+/// Returns the inertia of the bare disc, from its figure or its link.
+fn disc_inertia(
+    t: &Place<'_>,
+    e: &DriveEntry,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+) -> Option<f64> {
+    let disc = t.not_negative("disc_inertia", &e.disc_inertia, 1.0);
+    match (disc, &e.disc_link) {
+        (Some(_), Some(_)) => {
+            t.excludes("disc_link", "disc_inertia");
+            disc
+        }
+        (None, Some(id)) => Some(link_inertia(t, id, unit, mechanism).unwrap_or(1.0)),
+        (_, None) => disc,
+    }
+}
+
+/// Inertias of the discs with what they carry, and the payload.
+pub(crate) fn inertias(
+    t: &Place<'_>,
+    e: &DriveEntry,
+    unit: f64,
+    mechanism: Option<&Mechanism>,
+) -> ([f64; 2], Option<Payload>) {
+    let mass = t.positive("payload_mass", &e.payload_mass, 1.0);
+    let radius = t.not_negative("payload_radius", &e.payload_radius, unit);
+    let disc = disc_inertia(t, e, unit, mechanism);
+    let whole = t.positive("inertia", &e.inertia, 1.0);
+    match (mass, radius) {
+        (Some(_), None) => t.needs("payload_mass", "payload_radius"),
+        (None, Some(_)) if whole.is_none() => t.needs("payload_radius", "payload_mass"),
+        _ => {}
+    }
+    // Of a whole inertia the radius alone tells how far out accelerations are wanted.
+    let mass = mass.or(whole.map(|_| 0.0));
+    let payload = mass.zip(radius);
+    let payload = payload.map(|(mass, radius)| Payload { mass, radius });
+    let Some(first) = loaded_inertia(t, whole, disc, payload) else {
+        return ([1.0; 2], payload);
+    };
+    let second = t.positive("second_inertia", &e.second_inertia, 1.0);
+    ([first, second.unwrap_or(first)], payload)
+}
+
+/// Returns the inertia of a disc with its payload: the given sum, or the sum of both; `None` if neither has an inertia.
+fn loaded_inertia(
+    t: &Place<'_>,
+    whole: Option<f64>,
+    disc: Option<f64>,
+    payload: Option<Payload>,
+) -> Option<f64> {
+    match (whole, disc) {
+        (Some(i), None) => return Some(i),
+        (Some(_), Some(_)) => t.excludes("disc_inertia", "inertia"),
+        (None, Some(disc)) => {
+            let sum = disc + payload.map_or(0.0, |p| p.mass * p.radius * p.radius);
+            if sum <= 0.0 {
+                let allowed = "a disc or a payload with an inertia above 0";
+                t.key("disc_inertia").bad("inertia", sum, allowed);
+                return None;
+            }
+            return Some(sum);
+        }
+        (None, None) => {
+            let other = "inertia, or disc_inertia with payload_mass and payload_radius";
+            lacks(t, other);
+        }
+    }
+    Some(1.0)
+}
+
+/// Most steps of a programme.
+pub(in crate::file::read) const MOST: usize = 10_000;
+
+/// Returns the given number of swings, of both discs in turn or only of the second, with a dwell after each if one is given.
+#[must_use]
+pub(crate) fn regular(stepwise: bool, swings: usize, dwell: Option<f64>) -> Vec<ProgrammeStep> {
+    let mut steps = Vec::new();
+    for i in 0..swings {
+        // The second disc goes first, so that the first, which is ahead, is followed.
+        steps.push(ProgrammeStep::Swing(if stepwise { (i + 1) % 2 } else { 1 }));
+        steps.extend(dwell.map(ProgrammeStep::Dwell));
+    }
+    steps
+}
+
+/// Returns the steps of a file: those it lists, or the number of swings it asks for.
+pub(crate) fn programme(t: &Place<'_>, e: &DriveEntry) -> Vec<ProgrammeStep> {
+    let time = Bound::Range(0.0, 1e6, "a time from 0 to 1e6 s");
+    let dwell = t.optional("dwell", &e.dwell, 1.0, time);
+    let Some(list) = &e.programme else {
+        return swings(t, e, dwell);
+    };
+    let beside = [
+        ("motion", e.motion.is_some()),
+        ("swings", e.swings.is_some()),
+        ("dwell", e.dwell.is_some()),
+    ];
+    let given = beside.into_iter().filter(|(_, given)| *given);
+    given.for_each(|(k, _)| t.excludes(k, "programme"));
+    let at = t.key("programme");
+    let mut steps = Vec::new();
+    let count = at.number_of("number of steps", list.len(), MOST, "1 to 10000");
+    if count.is_none() {
+        return steps;
+    }
+    for (at, text) in at.entries(list) {
+        let found = step(text);
+        if found.is_none() {
+            let allowed = "\"1\", \"2\" or a dwell such as \"wait 0.3\"";
+            at.bad("step", format!("{text:?}"), allowed);
+        }
+        steps.extend(found);
+    }
+    steps
+}
+
+/// Returns the steps of a file that gives the number of swings and the dwell after each.
+fn swings(t: &Place<'_>, e: &DriveEntry, dwell: Option<f64>) -> Vec<ProgrammeStep> {
+    let ways = [("stepwise", true), ("reversing", false)];
+    let stepwise = t.word("motion", &e.motion, &ways);
+    let (at, allowed) = (t.key("swings"), "a whole number from 1 to 10000");
+    let count = at.number_of("number of swings", e.swings.unwrap_or(8), MOST, allowed);
+    count.map_or_else(Vec::new, |n| {
+        regular(stepwise, n, dwell.filter(|d| *d > 0.0))
+    })
+}
+
+/// Parses a step: "1" or "2" for a disc that swings, or "wait 0.3" for a dwell in s.
+fn step(text: &str) -> Option<ProgrammeStep> {
+    match text.trim() {
+        "1" => Some(ProgrammeStep::Swing(0)),
+        "2" => Some(ProgrammeStep::Swing(1)),
+        other => {
+            let time = other
+                .strip_prefix("wait")?
+                .trim()
+                .trim_end_matches('s')
+                .trim_end()
+                .parse::<f64>()
+                .ok()?;
+            (0.0..=1e6)
+                .contains(&time)
+                .then_some(ProgrammeStep::Dwell(time))
+        }
+    }
 }

@@ -1,10 +1,11 @@
 //! Masses with their tensors of inertia, several as one, and what an MJCF file says of how bodies are weighed.
 
 use crate::geom::rigid::RigidMotion;
-use crate::geom::vector::{Vector, dot, sub};
-use crate::robots::mjcf::context::{Compiler, compiler};
-use crate::robots::problem::Read;
+use crate::geom::vector::{Vector, add, dot, length, scale, sub};
+use crate::robots::mjcf::context::{Compiler, Lookup, compiler};
+use crate::robots::warning::Read;
 use crate::robots::xml::element::Element;
+use std::f64::consts::PI;
 
 /// Mass in kg, and the tensor in kg·m².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,6 +131,129 @@ impl Settings {
     }
 }
 
+/// Default density in kg/m³.
+const WATER: f64 = 1000.0;
+
+/// Returns the numbers of `size`; 0 where there are fewer than three.
+fn sizes(look: &Lookup<'_>) -> Read<[f64; 3]> {
+    let Some((e, text)) = look.attribute("size") else {
+        return Ok([0.0; 3]);
+    };
+    let mut out = [0.0; 3];
+    match text.split_whitespace().count() {
+        0 => {}
+        1 => out[..1].copy_from_slice(&e.numbers::<1>("size")?.unwrap_or_default()),
+        2 => out[..2].copy_from_slice(&e.numbers::<2>("size")?.unwrap_or_default()),
+        _ => out = e.numbers::<3>("size")?.unwrap_or_default(),
+    }
+    Ok(out)
+}
+
+/// The size of a shape and its place.
+struct Measures {
+    /// The numbers of `size`; 0 where there are fewer.
+    sizes: [f64; 3],
+    /// Half the length of what is round.
+    half: f64,
+    /// Half the depth and half the length of what has three sizes.
+    deep: f64,
+    long: f64,
+    place: RigidMotion,
+}
+
+impl Measures {
+    /// Returns those of a shape.
+    fn of(look: &Lookup<'_>, compiler: &Compiler) -> Read<Measures> {
+        let sizes = sizes(look)?;
+        let mut out = Measures {
+            sizes,
+            half: sizes[1],
+            deep: sizes[1],
+            long: sizes[2],
+            place: RigidMotion {
+                translation: look.vector("pos", [0.0; 3])?,
+                ..orientation(look, compiler)?
+            },
+        };
+        // Between two points a shape is round, or as deep as it is wide, and as long as they are apart.
+        if let Some([a, b, c, d, f, g]) = look.numbers::<6>("fromto")? {
+            let (from, to) = ([a, b, c], [d, f, g]);
+            out.half = length(sub(to, from)) / 2.0;
+            (out.deep, out.long) = (sizes[0], out.half);
+            out.place = RigidMotion {
+                translation: scale(add(from, to), 0.5),
+                ..RigidMotion::z_to(sub(from, to))
+            };
+        }
+        Ok(out)
+    }
+}
+
+/// Returns what a shape weighs on its body or frame, where it weighs something.
+pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Option<Weight>> {
+    let measures = Measures::of(look, &settings.compiler)?;
+    let [group] = look.numbers::<1>("group")?.unwrap_or_default();
+    let stated = look.numbers::<1>("mass")?.map(|[m]| m);
+    let [density] = look.numbers::<1>("density")?.unwrap_or([WATER]);
+    if group < settings.groups[0] || group > settings.groups[1] {
+        return Ok(None);
+    }
+    let kind = match look.attribute("type") {
+        Some((_, word)) => word,
+        None if look.attribute("mesh").is_some() => "mesh",
+        None => "sphere",
+    };
+    let Some((volume, moments)) = filled(kind, &measures) else {
+        return Ok(None);
+    };
+    let mass = stated.unwrap_or(density * volume);
+    let [x, y, z] = moments.map(|m| m * mass);
+    let weight = Weight {
+        mass,
+        place: measures.place,
+        tensor: [x, y, z, 0.0, 0.0, 0.0],
+    };
+    Ok(Some(weight).filter(|w| w.mass > 0.0))
+}
+
+/// Returns the turn that one of the five ways stands for, of the element or of its class.
+fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
+    let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+    match ways.iter().find_map(|w| look.attribute(w)) {
+        Some((e, _)) => compiler.turned(e),
+        None => Ok(RigidMotion::IDENTITY),
+    }
+}
+
+/// Returns the volume in m³ of a shape, and its moments of inertia about x, y and z with an even mass of 1 kg. Returns `None` for a
+/// plane, which is infinite, and for a mesh or another kind, whose file is not read.
+fn filled(kind: &str, measures: &Measures) -> Option<(f64, Vector)> {
+    let &Measures { deep, long, .. } = measures;
+    let (r, l) = (measures.sizes[0], 2.0 * measures.half);
+    // Of a cylinder, across it and along.
+    let (across, along) = ((3.0 * r * r + l * l) / 12.0, r * r / 2.0);
+    let (ball, middle) = (4.0 / 3.0 * PI * r.powi(3), PI * r * r * l);
+    let block = |share: f64| {
+        let [a, b, c] = [r * r, deep * deep, long * long];
+        [b + c, a + c, a + b].map(|sum| sum * share)
+    };
+    Some(match kind {
+        "box" => (8.0 * r * deep * long, block(1.0 / 3.0)),
+        "ellipsoid" => (4.0 / 3.0 * PI * r * deep * long, block(0.2)),
+        "sphere" => (ball, [0.4 * r * r; 3]),
+        "cylinder" => (middle, [across, across, along]),
+        "capsule" => {
+            let whole = ball + middle;
+            let (e, m) = (ball / whole, middle / whole);
+            // Half balls, each about the end of the cylinder.
+            let far = 0.4 * r * r + l * l / 4.0 + 3.0 * l * r / 8.0;
+            let across = m * across + e * far;
+            (whole, [across, across, m * along + e * 0.4 * r * r])
+        }
+        _ => return None,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,5 +275,80 @@ mod tests {
         let turned = turned([1.0, 2.0, 3.0, 0.0, 0.0, 0.0], &quarter);
         assert_eq!(turned, [1.0, 3.0, 2.0, 0.0, 0.0, 0.0]);
         assert_eq!(together(&[]), None);
+    }
+}
+
+#[cfg(test)]
+mod tests_of_shape {
+    use super::*;
+    use crate::geom::vector::dot;
+
+    /// Moments by adding up small cubes, all that the formulas are not.
+    fn added_up(inside: impl Fn(Vector) -> bool) -> (f64, Vector) {
+        const N: i32 = 120;
+        let step = 2.0 / f64::from(N);
+        let (mut volume, mut moments) = (0.0, [0.0; 3]);
+        for i in 0..N * N * N {
+            let at = [i % N, i / N % N, i / N / N];
+            let [x, y, z] = at.map(|k| -1.0 + step * (f64::from(k) + 0.5));
+            if inside([x, y, z]) {
+                volume += step.powi(3);
+                for (m, d) in moments
+                    .iter_mut()
+                    .zip([y * y + z * z, x * x + z * z, x * x + y * y])
+                {
+                    *m += step.powi(3) * d;
+                }
+            }
+        }
+        (volume, moments.map(|m| m / volume))
+    }
+
+    #[test]
+    fn solids_weigh_what_small_cubes_do() {
+        let (r, l) = (0.4, 0.9);
+        let round = |kind: &'static str, r, l: f64| (kind, [r, 0.0, 0.0], l / 2.0);
+        for ((kind, sizes, half), inside) in [
+            (
+                ("box", [0.4, 0.6, 0.8], 0.0),
+                Box::new(|[x, y, z]: Vector| x.abs() < 0.4 && y.abs() < 0.6 && z.abs() < 0.8)
+                    as Box<dyn Fn(Vector) -> bool>,
+            ),
+            (round("sphere", 0.7, 0.0), Box::new(|p| dot(p, p) < 0.49)),
+            (
+                round("cylinder", r, l),
+                Box::new(move |[x, y, z]| x * x + y * y < r * r && z.abs() < l / 2.0),
+            ),
+            (
+                round("capsule", r, l),
+                Box::new(move |[x, y, z]| {
+                    let past = (z.abs() - l / 2.0).max(0.0);
+                    x * x + y * y + past * past < r * r
+                }),
+            ),
+            (
+                ("ellipsoid", [0.5, 0.7, 0.9], 0.0),
+                Box::new(|[x, y, z]| {
+                    (x / 0.5).powi(2) + (y / 0.7).powi(2) + (z / 0.9).powi(2) < 1.0
+                }),
+            ),
+        ] {
+            let measures = Measures {
+                sizes,
+                half,
+                deep: sizes[1],
+                long: sizes[2],
+                place: RigidMotion::IDENTITY,
+            };
+            let (volume, moments) = filled(kind, &measures).unwrap();
+            let (slow, added) = added_up(inside);
+            assert!(
+                (volume / slow - 1.0).abs() < 0.02,
+                "{kind}: {volume} {slow}"
+            );
+            for (m, a) in moments.iter().zip(added) {
+                assert!((m / a - 1.0).abs() < 0.03, "{kind}: {m} {a}");
+            }
+        }
     }
 }

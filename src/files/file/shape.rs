@@ -1,18 +1,18 @@
-//! Lists that are too long or too short. The schema says how long each list is, and this module checks all of them.
+//! Lists that are too long or too short, and unknown keys. The schema says what there may be, and this module checks all of it.
 //!
-//! The deserializer of TOML ignores the values that a list has too many, and that of JSON calls them "trailing characters".
+//! The deserializer of TOML ignores the values that a list has too many, and that of JSON calls them "trailing characters". Both
+//! end at the first unknown key.
 
-use crate::file::locate::{DocumentStep, last_key};
-use crate::file::problem::ProblemKind;
 use crate::file::schema::json_schema;
-use crate::file::{Finding, Findings, Place};
+use crate::file::{Finding, Findings, Place, unknown_word};
+use crate::format::plural;
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(json_schema);
 
-/// Returns a problem for each list of a document whose length its schema excludes, with the path of the list.
-pub(crate) fn wrong_lengths(document: &Value) -> Vec<Finding> {
+/// Returns a problem for each list of a document whose length its schema excludes and for each key that it does not have.
+pub(crate) fn wrong_shapes(document: &Value) -> Vec<Finding> {
     let out = Findings::default();
     visit(&SCHEMA, document, "", &out.root());
     out.into_findings()
@@ -32,24 +32,33 @@ fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
                 at.entries(items)
                     .for_each(|(at, item)| visit(schema, item, owner, &at));
             } else if let (true, Some(schema)) = (fit.is_empty(), not.first()) {
-                let (list, count) = (name(&at.path, owner), items.len());
-                let [least, most] = lengths(schema);
-                at.add(ProblemKind::Length {
-                    list,
-                    count,
-                    least,
-                    most,
-                });
+                let wanted = match lengths(schema) {
+                    [least, most] if least == most => {
+                        format!("{}, no more and no fewer", plural(least, "value"))
+                    }
+                    [least, most] => format!("{least} to {}", plural(most, "value")),
+                };
+                at.add(format!(
+                    "{} has {}; write {wanted}",
+                    name(at, owner),
+                    plural(items.len(), "value")
+                ));
             }
         }
         Value::Object(entries) => {
             let id = entries.get("id").and_then(Value::as_str);
             let own =
-                id.map(|id| format!(" of {} \"{id}\"", last_key(&at.path).unwrap_or_default()));
+                id.map(|id| format!(" of {} \"{id}\"", at.path.last_key().unwrap_or_default()));
             let owner = own.as_deref().unwrap_or(owner);
             for (k, entry) in entries {
-                if let Some(schema) = all.iter().find_map(|s| of_key(s, k)) {
-                    visit(schema, entry, owner, &at.key(k));
+                match all.iter().find_map(|s| of_key(s, k)) {
+                    Some(Value::Bool(false)) => {
+                        let known = all.iter().filter_map(|s| s.get("properties")?.as_object());
+                        at.name(k)
+                            .add(unknown_word("key", k, known.flat_map(Map::keys)));
+                    }
+                    Some(schema) => visit(schema, entry, owner, &at.key(k)),
+                    None => {}
                 }
             }
         }
@@ -100,10 +109,8 @@ fn of_key<'s>(schema: &'s Map<String, Value>, key: &str) -> Option<&'s Value> {
 }
 
 /// Returns the name of a list in a message: its key, with its place where it is a list of a list, and its owner.
-fn name(path: &[DocumentStep], owner: &str) -> String {
-    let place = match path.last() {
-        Some(DocumentStep::Index(i)) => format!("entry {} of ", i + 1),
-        _ => String::new(),
-    };
-    format!("{place}{}{owner}", last_key(path).unwrap_or_default())
+fn name(at: &Place<'_>, owner: &str) -> String {
+    let place = at.path.last_index();
+    let place = place.map_or(String::new(), |i| format!("entry {} of ", i + 1));
+    format!("{place}{}{owner}", at.path.last_key().unwrap_or_default())
 }
