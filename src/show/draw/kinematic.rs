@@ -16,14 +16,14 @@ pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::{Body, Marked};
-use super::subject::{Mark, Subject};
+use super::subject::Subject;
 use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{self, JointInSpace, Projection, Vector, bounds};
+use crate::draw::place::projection::{JointInSpace, Projection, Vector, bounds};
 use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
-use crate::draw::symbol::placed::{self, Swap, Symbol};
+use crate::draw::symbol::placed::{Swap, Symbol};
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
@@ -57,37 +57,14 @@ pub fn kinematic_stressed(
     drawn.draw()
 }
 
-/// The kinematic scheme with room for the symbols of other joints in place of some, and for each swap the SVG elements
-/// that stand in the group of its joint (`data-joint`) instead of those there, marked as changed.
+/// Draws the kinematic scheme with room for the symbols of other joints in place of some.
 #[must_use]
-pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> Drawing {
     let mut drawn = Kinematic::new(subject, &Sight::default());
-    let mut out = Vec::new();
     for swap in swaps {
-        let (joint, option) = (swap.joint, swap.option);
-        let spot = drawn.spots.iter().find(|s| s.joint == joint);
-        let size = spot.map_or(1.0, |s| s.symbol.size);
-        let symbol = Symbol::new(
-            subject,
-            joint,
-            &option.joint_type,
-            &projection::turned(&option.frame),
-            &drawn.projection.view,
-            size,
-            spot.and_then(|s| s.symbol.slide),
-        );
-        let symbol = symbol.marked(Mark::Changed);
-        let mut piece = Sheet::piece();
-        symbol.draw(&mut piece, subject, joint, Mark::Changed);
-        if swap.unloading {
-            piece.shapes(&[placed::ring(symbol.reach())], [0.0; 2]);
-        }
-        out.push(piece.into_text());
-        if let Some(spot) = drawn.spots.iter_mut().find(|s| s.joint == joint) {
-            spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
-        }
+        drawn.make_room(swap);
     }
-    (drawn.draw(), out)
+    drawn.draw()
 }
 
 /// A joint on paper.

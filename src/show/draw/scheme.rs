@@ -10,7 +10,6 @@ use crate::draw::place::layout::{Layout, layout};
 use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
 use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
-use crate::draw::symbol::placed::{self, Swap};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::svg::plane::{Point, Rect, add, inside, mean, norm, polyline, scale, sub, to_segment};
@@ -44,22 +43,6 @@ pub fn scheme(subject: &Subject<'_>) -> Drawing {
         *p = scale(*p, unit);
     }
     Scheme::new(subject, parts, at).draw()
-}
-
-/// The structural scheme, and for each swap the SVG elements that stand in the group of its joint (`data-joint`) instead
-/// of those there, marked as changed.
-#[must_use]
-pub(crate) fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
-    let symbol = |s: &Swap<'_>| {
-        let mut piece = Sheet::piece();
-        let class = s.option.joint_type.class();
-        draw_symbol(&mut piece, subject, s.joint, class, Mark::Changed);
-        if s.unloading {
-            piece.shapes(&[placed::ring(DRIVE)], [0.0; 2]);
-        }
-        piece.into_text()
-    };
-    (scheme(subject), swaps.iter().map(symbol).collect())
 }
 
 fn parts(subject: &Subject<'_>) -> Parts {
@@ -304,8 +287,15 @@ impl<'a> Scheme<'a> {
         sheet.group("data-joint", &joint.id, at, |s| {
             let r = 2.0 * self.radius(i);
             s.symbol(Rect::around([0.0; 2], r, r));
-            let mark = self.subject.joint_mark(id);
-            draw_symbol(s, self.subject, id, joint.joint_type.class(), mark);
+            let mark = self.subject.joint_mark(id).class();
+            let only_here = self.subject.only_here(id);
+            let look = format!("joint{mark}{}", if only_here { " dash" } else { "" });
+            if joint.drive {
+                s.circle(&look, [0.0; 2], DRIVE);
+            }
+            s.circle(&look, [0.0; 2], JOINT);
+            let class = joint.joint_type.class();
+            s.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
         });
     }
 
@@ -369,19 +359,4 @@ impl<'a> Scheme<'a> {
         }
         out + &self.subject.coupling_words()
     }
-}
-
-/// The symbol of a joint of some class, round the origin.
-fn draw_symbol(sheet: &mut Sheet, subject: &Subject<'_>, joint: JointId, class: &str, mark: Mark) {
-    let dash = if subject.only_here(joint) {
-        " dash"
-    } else {
-        ""
-    };
-    let look = format!("joint{}{dash}", mark.class());
-    if subject.mechanism.joints[joint].drive {
-        sheet.circle(&look, [0.0; 2], DRIVE);
-    }
-    sheet.circle(&look, [0.0; 2], JOINT);
-    sheet.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
 }

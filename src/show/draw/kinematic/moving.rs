@@ -3,7 +3,7 @@
 pub(in crate::draw::kinematic) mod frame;
 pub(in crate::draw::kinematic) mod sliding;
 
-use super::{Kinematic, STRIP};
+use super::{Kinematic, STRIP, Spot};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
 use crate::draw::place::projection::Sight;
@@ -11,6 +11,7 @@ use crate::draw::place::projection::{JointInSpace, bounds};
 use crate::draw::sheet::{Caption, Drawing, Sheet, SheetPlan, Swatch, plan};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::placed::Symbol;
+use crate::model::joint_type::JointType;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
 use crate::svg::plane::{Point, Rect, add};
@@ -244,19 +245,25 @@ impl Kinematic<'_> {
 
     /// The symbol of a joint that stands at another place.
     pub(super) fn symbol_in(&self, i: usize, place: &JointInSpace) -> Symbol {
-        let spot = &self.spots[i];
-        let of = &self.subject.mechanism.joints[spot.joint].joint_type;
-        let (view, size) = (&self.projection.view, spot.symbol.size);
-        let symbol = Symbol::new(
+        let joint = self.spots[i].joint;
+        let of = &self.subject.mechanism.joints[joint].joint_type;
+        let symbol = self.symbol_of(i, of, place);
+        symbol.marked(self.subject.joint_mark(joint))
+    }
+
+    /// The symbol of a type in place of that of a joint.
+    pub(super) fn symbol_of(&self, i: usize, of: &JointType, place: &JointInSpace) -> Symbol {
+        let Spot { joint, symbol, .. } = &self.spots[i];
+        let view = &self.projection.view;
+        Symbol::new(
             self.subject,
-            spot.joint,
+            *joint,
             of,
             place,
             view,
-            size,
-            spot.symbol.slide,
-        );
-        symbol.marked(self.subject.joint_mark(spot.joint))
+            symbol.size,
+            symbol.slide,
+        )
     }
 
     /// The joints, those first that others are drawn within.

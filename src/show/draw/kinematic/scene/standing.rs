@@ -3,7 +3,9 @@
 use crate::draw::kinematic::scene::part::{below, flat, paper, part};
 use crate::draw::kinematic::scene::{Scene, fine, pixels};
 use crate::draw::kinematic::{Kinematic, body};
-use crate::draw::place::projection::{self, Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::place::projection::{
+    self, JointInSpace, Vector, View, add, cross, dot, norm, scale, sub,
+};
 use crate::draw::subject::Mark;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
@@ -185,6 +187,21 @@ impl Kinematic<'_> {
         parts.chain(above.iter().map(flat)).collect()
     }
 
+    /// Makes room for what a swap puts at a joint, and returns that with the number of the joint's spot and its axes; `None` if
+    /// the joint is not drawn.
+    pub(in crate::draw::kinematic) fn make_room(
+        &mut self,
+        swap: &Swap<'_>,
+    ) -> Option<(usize, Symbol, JointInSpace)> {
+        let i = self.spots.iter().position(|s| s.joint == swap.joint)?;
+        let place = projection::turned(&swap.option.frame);
+        let of = &swap.option.joint_type;
+        let symbol = self.symbol_of(i, of, &place);
+        let spot = &mut self.spots[i];
+        spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
+        Some((i, symbol, place))
+    }
+
     /// What each swap puts into a scene whose joints begin with the points of interest; room is made for all of them.
     pub(in crate::draw::kinematic) fn swap_in(
         &mut self,
@@ -194,24 +211,15 @@ impl Kinematic<'_> {
         let order = self.outer_first();
         let mut out = Vec::new();
         for swap in swaps {
-            let own = |i: &usize| self.spots[*i].joint == swap.joint;
-            let Some(n) = order.iter().position(own) else {
+            let Some((i, symbol, place)) = self.make_room(swap) else {
                 continue;
             };
-            let i = order[n];
-            let (place, of) = (
-                projection::turned(&swap.option.frame),
-                &swap.option.joint_type,
-            );
-            let (view, size) = (&self.projection.view, self.spots[i].symbol.size);
-            let slide = self.spots[i].symbol.slide;
-            let symbol = Symbol::new(self.subject, swap.joint, of, &place, view, size, slide);
+            let of = &swap.option.joint_type;
             let mut parts = self.parts(swap.joint, of, &symbol, Mark::Changed);
             if swap.unloading {
                 parts.push(flat(&placed::ring(symbol.reach())));
             }
-            let spot = &mut self.spots[i];
-            spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
+            let n = order.iter().position(|&k| k == i).unwrap_or_default();
             let axes = [place.x, place.y, place.z].map(fine);
             out.push(json!({
                 "joint": self.points.len() + n,
