@@ -44,12 +44,12 @@ impl Kinematic<'_> {
             out.push((Swatch::Symbol(draw), "output link".to_owned()));
         }
         out.extend(self.point_rows());
-        let circles = self.circles();
-        if circles.iter().any(|c| !c.is_empty()) {
+        let mut couplings = m.couplings_in(self.subject.state);
+        if couplings.any(|c| !self.pitch_circles(c, &self.places).is_empty()) {
             let draw = |s: &mut Sheet, p: Point| s.circle("fine pitch", p, 9.0);
             out.push((Swatch::Symbol(draw), "pitch circle of a gear".to_owned()));
         }
-        if circles.iter().any(Vec::is_empty) {
+        if !self.coupling_lines().is_empty() {
             out.extend(self.subject.coupling_row());
         }
         out.extend(self.arrow_rows(&self.arrows));

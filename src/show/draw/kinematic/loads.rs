@@ -83,12 +83,12 @@ impl Kinematic<'_> {
         (!points.is_empty()).then(|| bounds(&points).grown(3.0))
     }
 
-    pub(super) fn draw_arrows(&self, sheet: &mut Sheet, by: Point) {
+    pub(super) fn draw_arrows(&self, sheet: &mut Sheet) {
         for arrow in &self.arrows {
             let id = &self.subject.mechanism.links[self.links[arrow.link].0].id;
             sheet.group("data-load", id, [0.0; 2], |s| {
                 s.tip(&arrow.tip);
-                s.shapes(&self.arrow_shapes(arrow), by);
+                s.shapes(&self.arrow_shapes(arrow), [0.0; 2]);
             });
         }
     }

@@ -3,12 +3,12 @@
 pub(in crate::draw::kinematic) mod frame;
 pub(in crate::draw::kinematic) mod sliding;
 
-use super::{Kinematic, STRIP, Spot};
+use super::{Kinematic, Spot, Words};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, bounds};
-use crate::draw::sheet::{Caption, Drawing, Sheet, SheetPlan, Swatch, plan};
+use crate::draw::sheet::{Drawing, Sheet, Swatch};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::placed::Symbol;
 use crate::model::joint_type::JointType;
@@ -74,7 +74,8 @@ impl<'a> Moving<'a> {
     fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
         let poses = poses(moved);
         let lines = rest.moving_lines(&poses);
-        let frames: Vec<MovingPicture> = poses.iter().map(|c| rest.frame(c, &lines)).collect();
+        let frames = poses.iter().map(|c| rest.picture(Some(c), &lines));
+        let frames: Vec<MovingPicture> = frames.collect();
         rest.traces = (rest.ways(&poses), moved.way.closed);
         Moving {
             frames,
@@ -85,32 +86,24 @@ impl<'a> Moving<'a> {
         }
     }
 
-    fn draw(mut self) -> Drawing {
+    fn draw(self) -> Drawing {
         let rest = &self.rest;
-        let area = rest.room_of(&self.frames, self.start);
-        let title = rest.subject.title();
-        let [what, _] = rest.subject.subtitle(&rest.what());
         let mut legend = rest.legend();
         legend.extend(flag_row(&self.frames[self.start]));
-        let caption = Caption {
-            title: &title,
-            subtitle: [&what, self.words],
-            description: &format!("{} Moving: {}.", rest.description(), self.words),
+        let words = Words {
+            shows: Some(self.words.to_owned()),
+            more: format!(" Moving: {}.", self.words),
             legend,
         };
-        let plan = plan(&caption, area, STRIP);
-        let by = plan.shift;
-        for p in self.frames.iter_mut().flat_map(MovingPicture::all) {
-            *p = add(*p, by);
-        }
-        self.rest.shift_ground(by);
-        let mut sheet = Sheet::new(&caption, &plan);
-        sheet.style(&self.style());
-        self.rest.draw_traces(&mut sheet);
-        self.rest.draw_ground(&mut sheet);
-        self.draw_frames(&mut sheet);
-        self.rest.draw_below(&mut sheet, &plan);
-        sheet.finish(&caption, &plan)
+        let area = rest.room_of(&self.frames, self.start);
+        rest.on_sheet(area, words, |sheet, by| {
+            sheet.style(&self.style());
+            sheet.group("data-drawing", "", by, |s| {
+                rest.draw_traces(s);
+                rest.draw_ground(s);
+                self.draw_frames(s);
+            });
+        })
     }
 
     /// The symbols once each, and the pictures made of them.
@@ -140,7 +133,7 @@ impl<'a> Moving<'a> {
         }
         for (n, (f, used)) in self.frames.iter().zip(&used).enumerate() {
             sheet.frame(n, n == self.start, |s| {
-                f.draw(rest, s);
+                rest.draw_picture(s, f, false);
                 for &i in &order {
                     let id = &m.joints[rest.spots[i].joint].id;
                     s.joint_use(id, &format!("m{}", used[i]), f.at[i]);
@@ -222,25 +215,11 @@ impl Kinematic<'_> {
         area
     }
 
-    /// Moves what does not move with a pose to its place on the sheet.
-    pub(super) fn shift_ground(&mut self, by: Point) {
-        for g in &mut self.grounds {
-            (g.from, g.to) = (add(g.from, by), add(g.to, by));
-        }
-        self.shift_points(by);
-    }
-
     pub(super) fn draw_ground(&self, sheet: &mut Sheet) {
         for g in &self.grounds {
             sheet.symbol(g.rect());
             g.draw(sheet);
         }
-    }
-
-    /// The axes and the scale.
-    pub(super) fn draw_below(&self, sheet: &mut Sheet, plan: &SheetPlan) {
-        self.draw_axes(sheet, plan.legend_top - STRIP + 34.0);
-        self.draw_scale(sheet, plan.legend_top - STRIP + 40.0);
     }
 
     /// The symbol of a joint that stands at another place.

@@ -20,23 +20,10 @@ impl Kinematic<'_> {
         self.traces.0.iter().flatten().copied()
     }
 
-    pub(super) fn shift_points(&mut self, by: Point) {
-        let ways = self.traces.0.iter_mut().flatten();
-        for p in self.points.iter_mut().map(|p| &mut p.at).chain(ways) {
-            *p = add(*p, by);
-        }
-    }
-
     pub(super) fn draw_traces(&self, sheet: &mut Sheet) {
         let (ways, closed) = &self.traces;
         for way in ways {
             sheet.path("trace", &polyline(way, *closed));
-        }
-    }
-
-    pub(super) fn draw_points(&self, sheet: &mut Sheet) {
-        for p in &self.points {
-            sheet.group("data-point", &p.id, [0.0; 2], |s| draw_mark(s, p.at));
         }
     }
 
