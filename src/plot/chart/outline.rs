@@ -1,8 +1,9 @@
 //! Closed curves in their true shape, such as the profile of a cam.
 
-use super::frame::{Head, begin, stroke};
+use super::frame::{Head, begin, label, stroke};
 use crate::chart::style::{PAD, WIDTH};
 use crate::format::{csv, significant};
+use crate::svg::plane::{Point, polyline};
 
 /// Closed curves around one centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,50 +38,31 @@ impl Outline {
         let about = "Closed curves at their true shape.";
         let mut xml = begin((WIDTH, height), "oz", &self.title, about, &head);
         let by = SIZE / 2.0 / reach;
-        stroke(
-            &mut xml,
-            "axis",
-            (middle - 8.0, centre),
-            (middle + 8.0, centre),
-        );
-        stroke(
-            &mut xml,
-            "axis",
-            (middle, centre - 8.0),
-            (middle, centre + 8.0),
-        );
+        for [x, y] in [[8.0, 0.0], [0.0, 8.0]] {
+            let ends = [-1.0, 1.0].map(|s| (middle + s * x, centre + s * y));
+            stroke(&mut xml, "axis", ends[0], ends[1]);
+        }
         for (i, (name, points)) in self.curves.iter().enumerate() {
-            let at = |p: &[f64; 2]| format!("{:.2},{:.2}", middle + by * p[0], centre - by * p[1]);
-            let all: Vec<String> = points.iter().map(at).collect();
+            let at = |p: &[f64; 2]| [middle + by * p[0], centre - by * p[1]];
+            let all: Vec<Point> = points.iter().map(at).collect();
             let class = format!("line c{}{}", i % 7, if i > 0 { " dash" } else { "" });
-            let line = xml
-                .tag("polygon")
-                .set("class", &class)
-                .set("points", &all.join(" "));
-            line.tip(name);
+            let line = xml.tag("path").set("class", &class);
+            line.set("d", &polyline(&all, true)).tip(name);
             #[allow(clippy::cast_precision_loss, reason = "a few curves")]
             let y = top + PAD + 16.0 * i as f64;
             stroke(&mut xml, &class, (PAD, y - 4.0), (PAD + 24.0, y - 4.0));
-            xml.tag("text").num("x", PAD + 30.0).num("y", y).text(name);
+            label(&mut xml, "", (PAD + 30.0, y), "").text(name);
         }
         let scale = format!("greatest radius {} {}", significant(reach), self.unit);
-        xml.tag("text")
-            .set("class", "soft")
-            .num("x", PAD)
-            .num("y", height - PAD)
-            .text(&scale);
+        label(&mut xml, "soft", (PAD, height - PAD), "").text(&scale);
         xml.finish()
     }
 
     /// Returns one point per line.
     #[must_use]
     pub fn csv(&self) -> String {
-        let point = |name: &str, p: &[f64; 2]| {
-            vec![
-                name.to_owned(),
-                format!("{:?}", p[0]),
-                format!("{:?}", p[1]),
-            ]
+        let point = |name: &str, [x, y]: &[f64; 2]| {
+            vec![name.to_owned(), format!("{x:?}"), format!("{y:?}")]
         };
         let rows = self
             .curves

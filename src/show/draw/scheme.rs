@@ -7,12 +7,12 @@ use super::subject::{Mark, Subject, roominess};
 use crate::closure::contour::{Contour, contour_basis};
 use crate::draw::place::graph::{Graph, ring};
 use crate::draw::place::layout::{Layout, layout};
-use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
-use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
+use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Shape, Sheet, Swatch, plan};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
-use crate::svg::plane::{Point, Rect, add, inside, mean, norm, polyline, scale, sub, to_segment};
+use crate::svg::labels::LabelPlace;
+use crate::svg::plane::{Point, Rect, inside, mean, norm, polyline, scale, sub, to_segment};
 use std::fmt::Write as _;
 
 /// Pixels of a bar.
@@ -160,7 +160,7 @@ impl<'a> Scheme<'a> {
         }
     }
 
-    fn draw(mut self) -> Drawing {
+    fn draw(self) -> Drawing {
         let labels = self.place_labels();
         let mut area = Rect::around(
             self.at.joints.first().copied().unwrap_or([0.0; 2]),
@@ -182,26 +182,25 @@ impl<'a> Scheme<'a> {
             legend: self.legend(),
         };
         let plan = plan(&caption, area, 0.0);
-        for p in self.at.joints.iter_mut().chain(self.at.hubs.iter_mut()) {
-            *p = add(*p, plan.shift);
-        }
         let mut sheet = Sheet::new(&caption, &plan);
-        let order = self.contours_by_size().into_iter();
-        let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
-        for c in seen {
-            self.draw_contour(&mut sheet, c, &polyline(&self.round(c), true));
-        }
-        for l in 0..self.rings.len() {
-            self.draw_link(&mut sheet, l);
-        }
-        for c in hidden {
-            self.draw_contour(&mut sheet, c, &self.band(c));
-        }
-        self.subject.draw_couplings(&mut sheet, |j| {
-            let i = self.parts.joints.iter().position(|&x| x == j)?;
-            Some(self.at.joints[i])
+        sheet.group("data-drawing", "", plan.shift, |sheet| {
+            let order = self.contours_by_size().into_iter();
+            let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
+            for c in seen {
+                self.draw_contour(sheet, c, &polyline(&self.round(c), true));
+            }
+            for l in 0..self.rings.len() {
+                self.draw_link(sheet, l);
+            }
+            for c in hidden {
+                self.draw_contour(sheet, c, &self.band(c));
+            }
+            self.subject.draw_couplings(sheet, |j| {
+                let i = self.parts.joints.iter().position(|&x| x == j)?;
+                Some(self.at.joints[i])
+            });
+            self.draw_labels(sheet, &labels);
         });
-        self.draw_labels(&mut sheet, &labels, plan.shift);
         sheet.finish(&caption, &plan)
     }
 
@@ -228,18 +227,18 @@ impl<'a> Scheme<'a> {
         });
     }
 
-    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, String)], shift: Point) {
+    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, String)]) {
         let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
         for (place, _) in labels {
             if let Some((a, b)) = place.leader {
-                sheet.line("lead", add(a, shift), add(b, shift));
+                sheet.line("lead", a, b);
             }
         }
         for i in 0..joints {
             self.draw_joint(sheet, i);
         }
         for (n, (place, text)) in labels.iter().enumerate() {
-            let rect = place.rect.moved(shift);
+            let rect = place.rect;
             let (class, size, mark) = if n < joints {
                 let mark = self.subject.joint_mark(self.parts.joints[n]);
                 if self.on_frame(rect.middle()) {
@@ -314,24 +313,23 @@ impl<'a> Scheme<'a> {
         }
         let any = |of: &dyn Fn(JointId) -> bool| self.parts.joints.iter().any(|&j| of(j));
         if any(&|j| m.joints[j].drive) {
-            let draw = |s: &mut Sheet, p: Point| {
-                s.circle("joint", p, 9.5);
-                s.circle("joint", p, 6.5);
-            };
-            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+            let circles = [9.5, 6.5].map(|r| Shape::circle("joint", [0.0; 2], r));
+            let text = "driving pair".to_owned();
+            out.push((Swatch::Shapes(circles.to_vec()), text));
         }
         let class = "joint with its class";
         out.push((Swatch::Joint("joint", "V".to_owned()), class.to_owned()));
-        let frame = |s: &mut Sheet, p: Point| {
-            let ends = [add(p, [-7.0, 0.0]), add(p, [7.0, 0.0])];
+        let frame = |s: &mut Sheet| {
+            let ends = [[-7.0, 0.0], [7.0, 0.0]];
             s.path("link", &rounded(&ends, 7.0));
             s.path("fine", &hatch_with(&ends, 6.4, 4.0));
         };
         out.push((Swatch::Symbol(frame), m.frame_words()));
         if any(&|j| self.subject.only_here(j)) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("joint dash", p, 9.5);
+            let circle = Shape::circle("joint dash", [0.0; 2], 9.5);
             let state = &m.states[self.subject.state];
-            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
+            let text = format!("in state {state} only");
+            out.push((Swatch::Shapes(vec![circle]), text));
         }
         out.extend(self.subject.coupling_row());
         out.extend(self.subject.mark_rows());

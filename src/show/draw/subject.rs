@@ -1,13 +1,13 @@
 //! What is drawn: a mechanism in one state with its couplings, and what a redesign of it changed.
 
-use crate::draw::sheet::{SMALL, Shape, Sheet, Swatch};
+use crate::draw::sheet::{SMALL, Sheet, Swatch};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
-use crate::svg::plane::{Point, add};
+use crate::svg::plane::Point;
 use crate::svg::text::width;
 use std::fmt::Write as _;
 
@@ -185,9 +185,7 @@ impl Subject<'_> {
             ));
         }
         for link in m.links.iter().skip(marks.links) {
-            let bar = Shape::line("bone new".to_owned(), vec![[-9.0, 0.0], [9.0, 0.0]]);
-            let text = format!("link {}: added", link.id);
-            out.push((Swatch::Shapes(vec![bar]), text));
+            out.push((Swatch::line("bone new"), format!("link {}: added", link.id)));
         }
         out
     }
@@ -208,9 +206,7 @@ impl Subject<'_> {
     /// The row of the legend, where there are couplings.
     pub(super) fn coupling_row(&self) -> Option<(Swatch, String)> {
         self.mechanism.couplings_in(self.state).next()?;
-        let draw =
-            |s: &mut Sheet, p: Point| s.line(COUPLING, add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
-        Some((Swatch::Symbol(draw), "coupled joints".to_owned()))
+        Some((Swatch::line(COUPLING), "coupled joints".to_owned()))
     }
 
     /// The couplings for those who do not see the drawing.

@@ -2,12 +2,12 @@
 
 use super::Kinematic;
 use super::arrow::{Arrow, shapes};
+use crate::draw::place::projection::sub as sub3;
 use crate::draw::place::projection::{Vector, add as add3, along_z, norm as norm3, scale as times};
-use crate::draw::place::projection::{bounds, sub as sub3};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
 use crate::format::decimals;
 use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect};
+use crate::svg::plane::{Point, Rect, bounds};
 
 /// The length of the greatest arrow, in pixels.
 const LONGEST: f64 = 60.0;
@@ -88,7 +88,7 @@ impl Kinematic<'_> {
             let id = &self.subject.mechanism.links[self.links[arrow.link].0].id;
             sheet.group("data-load", id, [0.0; 2], |s| {
                 s.tip(&arrow.tip);
-                s.shapes(&self.arrow_shapes(arrow), [0.0; 2]);
+                s.shapes(&self.arrow_shapes(arrow));
             });
         }
     }

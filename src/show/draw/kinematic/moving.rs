@@ -6,15 +6,15 @@ pub(in crate::draw::kinematic) mod sliding;
 use super::{Kinematic, Spot, Words};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::place::projection::JointInSpace;
 use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{JointInSpace, bounds};
-use crate::draw::sheet::{Drawing, Sheet, Swatch};
+use crate::draw::sheet::{Drawing, Shape, Sheet, Swatch};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::placed::Symbol;
 use crate::model::joint_type::JointType;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::svg::plane::{Point, Rect, add};
+use crate::svg::plane::{Rect, bounds};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -117,7 +117,7 @@ impl<'a> Moving<'a> {
             let of = rest.spots.iter().zip(&f.places).enumerate();
             let of = of.map(|(i, (spot, place))| {
                 let mark = rest.subject.joint_mark(spot.joint);
-                let mut piece = Sheet::piece();
+                let mut piece = Sheet::default();
                 let symbol = rest.symbol_in(i, place);
                 symbol.draw(&mut piece, rest.subject, spot.joint, mark);
                 let next = store.len();
@@ -170,11 +170,11 @@ impl<'a> Moving<'a> {
 
 /// What the legend says of flags, where there are any.
 pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
-    let draw = |s: &mut Sheet, p: Point| s.line("flag", p, add(p, [7.0, -7.0]));
     let there = frame.lines.iter().any(|(class, _)| *class == "flag");
     there.then(|| {
+        let flag = Shape::line("flag", vec![[0.0; 2], [7.0, -7.0]]);
         let text = "flag on a link that turns in its place";
-        (Swatch::Symbol(draw), text.to_owned())
+        (Swatch::Shapes(vec![flag]), text.to_owned())
     })
 }
 

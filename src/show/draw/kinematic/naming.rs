@@ -3,8 +3,8 @@
 use super::moving::frame::MovingPicture;
 use super::{Kinematic, LabelText, Spot};
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::draw::symbol::ground::Ground;
+use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{names, width};
 

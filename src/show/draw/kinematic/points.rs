@@ -7,7 +7,7 @@ use crate::draw::place::projection::{Vector, add as add3, scale as times};
 use crate::draw::sheet::{Sheet, Swatch};
 use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, add, polyline, sub};
+use crate::svg::plane::{Point, polyline, sub};
 
 impl Kinematic<'_> {
     /// The points of a link.
@@ -31,20 +31,17 @@ impl Kinematic<'_> {
     pub(super) fn point_rows(&self) -> Vec<(Swatch, String)> {
         let mut out = Vec::new();
         if !self.points.is_empty() {
-            out.push((
-                Swatch::Symbol(draw_mark),
-                "point of interest, or face of a jaw".to_owned(),
-            ));
+            let mark = |s: &mut Sheet| draw_mark(s, [0.0; 2]);
+            let text = "point of interest, or face of a jaw".to_owned();
+            out.push((Swatch::Symbol(mark), text));
         }
         if !self.traces.0.is_empty() {
-            let draw =
-                |s: &mut Sheet, p: Point| s.line("trace", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
             let of = if self.points.is_empty() {
                 "way of a point of the output"
             } else {
                 "way of a point"
             };
-            out.push((Swatch::Symbol(draw), of.to_owned()));
+            out.push((Swatch::line("trace"), of.to_owned()));
         }
         out
     }

@@ -10,11 +10,11 @@ use super::moving::{Moved, flag_row, poses};
 use super::{Kinematic, Words};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
-use crate::draw::kinematic::scene::part::tidy;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};
 use crate::draw::sheet::{Drawing, Swatch};
 use crate::draw::subject::Subject;
+use crate::draw::symbol::pieces::{Piece, tidy};
 use crate::draw::symbol::placed::Swap;
 use crate::model::mechanism::LinkId;
 use crate::motion::drive_range::Way;
@@ -43,7 +43,7 @@ pub struct Scene {
     /// The link that rests.
     frame: usize,
     /// The pieces of each symbol.
-    symbols: Vec<Vec<Value>>,
+    symbols: Vec<Vec<Piece>>,
     /// Symbols at their places.
     joints: Vec<Value>,
     couplings: Vec<Value>,
@@ -155,7 +155,7 @@ impl Scene {
     }
 
     /// The number of a symbol of some pieces.
-    pub(super) fn symbol(&mut self, parts: Vec<Value>) -> usize {
+    pub(super) fn symbol(&mut self, parts: Vec<Piece>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
             self.symbols.push(parts);

@@ -1,7 +1,7 @@
 //! The symbol of a joint at its place: with the ring of a drive, within others that stand there, and in place of another.
 
 use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
-use crate::draw::sheet::{Shape, Sheet};
+use crate::draw::sheet::{ROW, Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
 use crate::draw::symbol::pieces::{PaperPose, Piece};
 use crate::draw::symbol::{drive, symbols};
@@ -44,12 +44,9 @@ impl Symbol {
             room = room.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4));
         }
         if let Some(axis) = slide {
-            let arrow = drive::straight(axis);
-            let arrow: Vec<Shape> = arrow
-                .iter()
-                .filter_map(|p| p.shape(&pose, "", size))
-                .collect();
-            room = room.with(&symbols::extent(&arrow));
+            let arrow = symbols::arrow(axis).iter();
+            let arrow = arrow.filter_map(|p| p.shape(&pose, "", size));
+            room = room.with(&symbols::extent(&arrow.collect::<Vec<_>>()));
         }
         Symbol {
             of: of.clone(),
@@ -67,17 +64,17 @@ impl Symbol {
         self
     }
 
-    /// Its shapes in the usual size, without a mark.
-    pub(in crate::draw) fn plain(&self) -> Vec<Shape> {
-        symbols::symbol(&self.of, &self.pose, "", 1.0)
+    /// Its shapes without a mark, small enough for a row of the legend.
+    pub(in crate::draw) fn small(&self) -> Vec<Shape> {
+        let usual = symbols::extent(&symbols::symbol(&self.of, &self.pose, "", 1.0));
+        let by = (ROW - 2.0) / (usual.bottom - usual.top);
+        symbols::symbol(&self.of, &self.pose, "", by.min(1.0))
     }
 
     /// How far it reaches from its middle.
     pub(in crate::draw) fn reach(&self) -> f64 {
-        let r = &self.room;
-        [-r.left, -r.top, r.right, r.bottom]
-            .into_iter()
-            .fold(0.0, f64::max)
+        let [left, top, right, bottom] = self.room.edges();
+        (-left).max(-top).max(right).max(bottom).max(0.0)
     }
 
     pub(in crate::draw) fn draw(
@@ -88,18 +85,17 @@ impl Symbol {
         mark: Mark,
     ) {
         let (below, above) = self.round(subject, joint, mark);
-        sheet.shapes(&below, [0.0; 2]);
-        sheet.shapes(&self.shapes, [0.0; 2]);
-        let arrow = self.arrow();
-        let arrow = arrow.iter();
+        sheet.shapes(&below);
+        sheet.shapes(&self.shapes);
+        let arrow = self.arrow().iter();
         let arrow = arrow.filter_map(|p| p.shape(&self.pose, mark.class(), self.size));
-        sheet.shapes(&arrow.collect::<Vec<_>>(), [0.0; 2]);
-        sheet.shapes(&above, [0.0; 2]);
+        sheet.shapes(&arrow.collect::<Vec<_>>());
+        sheet.shapes(&above);
     }
 
     /// The straight arrow of a driven slide.
-    pub(in crate::draw) fn arrow(&self) -> Vec<Piece> {
-        self.slide.map(drive::straight).unwrap_or_default()
+    pub(in crate::draw) fn arrow(&self) -> &'static [Piece] {
+        self.slide.map_or(&[], symbols::arrow)
     }
 
     /// What stands round the symbol, below and above it, and is turned to the reader always.
@@ -110,11 +106,9 @@ impl Symbol {
         mark: Mark,
     ) -> (Vec<Shape>, Vec<Shape>) {
         let drive = |r| drive::round(mark.class(), r);
-        let only_here = subject.only_here(joint).then(|| Shape::Circle {
-            at: [0.0; 2],
-            radius: self.ring.unwrap_or(10.0 * self.size) + 2.5,
-            class: "fine dash".to_owned(),
-        });
+        let radius = self.ring.unwrap_or(10.0 * self.size) + 2.5;
+        let only_here = subject.only_here(joint);
+        let only_here = only_here.then(|| Shape::circle("fine dash", [0.0; 2], radius));
         let below = self.ring.map(drive).unwrap_or_default();
         (below, only_here.into_iter().collect())
     }
@@ -133,11 +127,7 @@ pub struct Swap<'a> {
 
 /// The mark of an unloading joint round a symbol of some reach.
 pub(in crate::draw) fn ring(reach: f64) -> Shape {
-    Shape::Circle {
-        at: [0.0; 2],
-        radius: reach + 4.0,
-        class: "line new".to_owned(),
-    }
+    Shape::circle("line new", [0.0; 2], reach + 4.0)
 }
 
 /// How much larger the next joint outwards is, so that the outline of each is seen.

@@ -1,13 +1,15 @@
 //! What stands on the links of a scheme in space, and what a redesign puts there.
 
-use crate::draw::kinematic::scene::part::{below, flat, paper, part};
+use crate::draw::kinematic::scene::part::below;
 use crate::draw::kinematic::scene::{Scene, fine, pixels};
 use crate::draw::kinematic::{Kinematic, body};
 use crate::draw::place::projection::{
     self, JointInSpace, Vector, View, add, cross, dot, norm, scale, sub,
 };
+use crate::draw::sheet::Shape;
 use crate::draw::subject::Mark;
 use crate::draw::symbol::ground::Ground;
+use crate::draw::symbol::pieces::Piece;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
 use crate::draw::symbol::symbols;
 use crate::geom::vector::{X, Y, Z};
@@ -98,7 +100,8 @@ impl Kinematic<'_> {
     fn add_points(&self, out: &mut Scene) {
         for p in &self.points {
             let corners = body::corners([0.0; 2]);
-            let symbol = out.symbol(vec![paper("ink", &corners, true)]);
+            let mark = Shape::path("ink", corners.to_vec(), true);
+            let symbol = out.symbol(vec![Piece::on_paper(&mark)]);
             let row = self.row(p.link);
             let mut point = self.standing(p.place, [row; 2], symbol);
             point["id"] = json!(p.id);
@@ -141,7 +144,8 @@ impl Kinematic<'_> {
         };
         let frame = self.row(self.subject.mechanism.frame());
         let place = self.places[i].point;
-        let symbol = out.symbol(below(self.spots[i].symbol.reach() + 6.0));
+        let shapes = below(self.spots[i].symbol.reach() + 6.0);
+        let symbol = out.symbol(shapes.iter().map(Piece::on_paper).collect());
         let mut below = self.standing(place, [frame; 2], symbol);
         below["turned"] = json!(true);
         out.joints.push(below);
@@ -179,12 +183,12 @@ impl Kinematic<'_> {
         of: &JointType,
         symbol: &Symbol,
         mark: Mark,
-    ) -> Vec<Value> {
+    ) -> Vec<Piece> {
         let (below, above) = symbol.round(self.subject, joint, mark);
-        let own = [symbols::pieces(of), symbol.arrow()].concat();
-        let own = own.iter().map(|p| part(p, mark.class(), symbol.size));
-        let parts = below.iter().map(flat).chain(own);
-        parts.chain(above.iter().map(flat)).collect()
+        let own = symbols::pieces(of).iter().chain(symbol.arrow());
+        let own = own.map(|p| p.sized(mark.class(), symbol.size));
+        let parts = below.iter().map(Piece::on_paper).chain(own);
+        parts.chain(above.iter().map(Piece::on_paper)).collect()
     }
 
     /// Makes room for what a swap puts at a joint, and returns that with the number of the joint's spot and its axes; `None` if
@@ -217,7 +221,7 @@ impl Kinematic<'_> {
             let of = &swap.option.joint_type;
             let mut parts = self.parts(swap.joint, of, &symbol, Mark::Changed);
             if swap.unloading {
-                parts.push(flat(&placed::ring(symbol.reach())));
+                parts.push(Piece::on_paper(&placed::ring(symbol.reach())));
             }
             let n = order.iter().position(|&k| k == i).unwrap_or_default();
             let axes = [place.x, place.y, place.z].map(fine);
