@@ -205,7 +205,7 @@ impl Kinematic<'_> {
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
             sheet.group("data-joint", id, s.at, |sheet| {
-                s.symbol.draw(sheet, self.subject, s.joint, mark);
+                s.symbol.draw(sheet, mark);
             });
         }
     }

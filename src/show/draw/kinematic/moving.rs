@@ -116,10 +116,10 @@ impl<'a> Moving<'a> {
         for f in &self.frames {
             let of = rest.spots.iter().zip(&f.places).enumerate();
             let of = of.map(|(i, (spot, place))| {
-                let mark = rest.subject.joint_mark(spot.joint);
+                let of = &m.joints[spot.joint].joint_type;
                 let mut piece = Sheet::default();
-                let symbol = rest.symbol_in(i, place);
-                symbol.draw(&mut piece, rest.subject, spot.joint, mark);
+                let mark = rest.subject.joint_mark(spot.joint);
+                rest.symbol_of(i, of, place).draw(&mut piece, mark);
                 let next = store.len();
                 *store.entry(piece.into_text()).or_insert(next)
             });
@@ -220,14 +220,6 @@ impl Kinematic<'_> {
             sheet.symbol(g.rect());
             g.draw(sheet);
         }
-    }
-
-    /// The symbol of a joint that stands at another place.
-    pub(super) fn symbol_in(&self, i: usize, place: &JointInSpace) -> Symbol {
-        let joint = self.spots[i].joint;
-        let of = &self.subject.mechanism.joints[joint].joint_type;
-        let symbol = self.symbol_of(i, of, place);
-        symbol.marked(self.subject.joint_mark(joint))
     }
 
     /// The symbol of a type in place of that of a joint.

@@ -85,7 +85,7 @@ fn always() -> [f64; 2] {
 
 /// Where so much of an axis points at the reader, it is seen from its end.
 const END_ON: f64 = 0.9;
-/// Faces smaller than this, in square pixels at the usual size, are seen from the side.
+/// Faces smaller than this, in square pixels, are seen from the side.
 const EDGE: f64 = 0.05;
 
 /// To a hundredth of a pixel.
@@ -130,25 +130,24 @@ impl Piece {
         }
     }
 
-    /// How it looks from a side, so many times its size; nothing where it is not seen. `mark` is added to the class.
-    pub(in crate::draw) fn shape(&self, pose: &PaperPose, mark: &str, size: f64) -> Option<Shape> {
+    /// How it looks from a side; nothing where it is not seen.
+    pub(in crate::draw) fn shape(&self, pose: &PaperPose) -> Option<Shape> {
         let ahead = pose.toward[2].abs();
         let ended = self.along.is_some_and(|a| pose.toward[a].abs() >= END_ON);
         if ended || ahead < self.seen[0] || ahead >= self.seen[1] {
             return None;
         }
         let points = self.points.iter();
-        let points = points.map(|p| scale(pose.at(p, self.along), size));
-        let points: Vec<Point> = points.collect();
-        let (class, radius) = (format!("{}{mark}", self.class), self.radius * size);
+        let points: Vec<Point> = points.map(|p| pose.at(p, self.along)).collect();
+        let class = self.class.clone();
         Some(match self.form {
-            Form::Ball => Shape::circle(class, mean(points.into_iter()), radius),
+            Form::Ball => Shape::circle(class, mean(points.into_iter()), self.radius),
             Form::Line => Shape::line(class, points),
             // y goes down on paper
-            Form::Face if turning(&points) > -EDGE * size * size => return None,
+            Form::Face if turning(&points) > -EDGE => return None,
             Form::Face | Form::Loop => Shape::path(class, points, true),
             Form::Hull => {
-                let discs = points.into_iter().flat_map(|p| disc(p, radius));
+                let discs = points.into_iter().flat_map(|p| disc(p, self.radius));
                 Shape::path(class, hull(discs.collect()), true)
             }
         })

@@ -13,7 +13,8 @@ use crate::svg::plane::{Point, Rect, norm, sub};
 pub(in crate::draw) struct Symbol {
     of: JointType,
     pose: PaperPose,
-    shapes: Vec<Shape>,
+    /// Whether the joint is there in this state alone.
+    only_here: bool,
     /// How many times the usual size it is.
     pub(in crate::draw) size: f64,
     pub(in crate::draw) room: Rect,
@@ -34,34 +35,28 @@ impl Symbol {
         slide: Option<usize>,
     ) -> Symbol {
         let pose = PaperPose::new(place, view);
-        let shapes = symbols::symbol(of, &pose, "", size);
-        let own = symbols::extent(&shapes);
+        let own = symbols::extent(&symbols::symbol(of, &pose, "", size));
         let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
-        let joint = &subject.mechanism.joints[joint];
-        let ring = (joint.drive && slide.is_none()).then_some(reach.min(14.0 * size));
+        let drive = subject.mechanism.joints[joint].drive;
+        let ring = (drive && slide.is_none()).then_some(reach.min(14.0 * size));
         let mut room = own;
         if let Some(r) = ring {
             room = room.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4));
         }
         if let Some(axis) = slide {
             let arrow = symbols::arrow(axis).iter();
-            let arrow = arrow.filter_map(|p| p.shape(&pose, "", size));
+            let arrow = arrow.filter_map(|p| p.sized("", size).shape(&pose));
             room = room.with(&symbols::extent(&arrow.collect::<Vec<_>>()));
         }
         Symbol {
             of: of.clone(),
             pose,
-            shapes,
+            only_here: subject.only_here(joint),
             size,
             room,
             ring,
             slide,
         }
-    }
-
-    pub(in crate::draw) fn marked(mut self, mark: Mark) -> Symbol {
-        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class(), self.size);
-        self
     }
 
     /// Its shapes without a mark, small enough for a row of the legend.
@@ -77,40 +72,24 @@ impl Symbol {
         (-left).max(-top).max(right).max(bottom).max(0.0)
     }
 
-    pub(in crate::draw) fn draw(
-        &self,
-        sheet: &mut Sheet,
-        subject: &Subject<'_>,
-        joint: JointId,
-        mark: Mark,
-    ) {
-        let (below, above) = self.round(subject, joint, mark);
-        sheet.shapes(&below);
-        sheet.shapes(&self.shapes);
-        let arrow = self.arrow().iter();
-        let arrow = arrow.filter_map(|p| p.shape(&self.pose, mark.class(), self.size));
-        sheet.shapes(&arrow.collect::<Vec<_>>());
-        sheet.shapes(&above);
+    pub(in crate::draw) fn draw(&self, sheet: &mut Sheet, mark: Mark) {
+        let pieces = self.pieces(mark).into_iter();
+        let shapes: Vec<Shape> = pieces.filter_map(|p| p.shape(&self.pose)).collect();
+        sheet.shapes(&shapes);
     }
 
-    /// The straight arrow of a driven slide.
-    pub(in crate::draw) fn arrow(&self) -> &'static [Piece] {
-        self.slide.map_or(&[], symbols::arrow)
-    }
-
-    /// What stands round the symbol, below and above it, and is turned to the reader always.
-    pub(in crate::draw) fn round(
-        &self,
-        subject: &Subject<'_>,
-        joint: JointId,
-        mark: Mark,
-    ) -> (Vec<Shape>, Vec<Shape>) {
-        let drive = |r| drive::round(mark.class(), r);
+    /// Its pieces from the back to the front, with the ring or the arrow of a drive and the ring of a joint of this state alone.
+    pub(in crate::draw) fn pieces(&self, mark: Mark) -> Vec<Piece> {
+        let mark = mark.class();
+        let below = self.ring.map(|r| drive::round(mark, r)).unwrap_or_default();
+        let arrow = self.slide.map_or(&[][..], symbols::arrow);
+        let own = symbols::pieces(&self.of).iter().chain(arrow);
+        let own = own.map(|p| p.sized(mark, self.size));
         let radius = self.ring.unwrap_or(10.0 * self.size) + 2.5;
-        let only_here = subject.only_here(joint);
-        let only_here = only_here.then(|| Shape::circle("fine dash", [0.0; 2], radius));
-        let below = self.ring.map(drive).unwrap_or_default();
-        (below, only_here.into_iter().collect())
+        let above = Shape::circle("fine dash", [0.0; 2], radius);
+        let above = self.only_here.then(|| Piece::on_paper(&above));
+        let below = below.iter().map(Piece::on_paper);
+        below.chain(own).chain(above).collect()
     }
 }
 

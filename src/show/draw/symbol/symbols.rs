@@ -33,7 +33,7 @@ pub(in crate::draw) fn symbol(
     mark: &str,
     size: f64,
 ) -> Vec<Shape> {
-    let seen = |p: &Piece| p.shape(pose, mark, size);
+    let seen = |p: &Piece| p.sized(mark, size).shape(pose);
     pieces(joint).iter().filter_map(seen).collect()
 }
 

@@ -11,9 +11,7 @@ use crate::draw::subject::Mark;
 use crate::draw::symbol::ground::Ground;
 use crate::draw::symbol::pieces::Piece;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
-use crate::draw::symbol::symbols;
 use crate::geom::vector::{X, Y, Z};
-use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
@@ -115,7 +113,7 @@ impl Kinematic<'_> {
             let spot = &self.spots[i];
             let mark = self.subject.joint_mark(spot.joint);
             let of = &m.joints[spot.joint].joint_type;
-            let symbol = out.symbol(self.parts(spot.joint, of, &spot.symbol, mark));
+            let symbol = out.symbol(spot.symbol.pieces(mark));
             let (rides, guides) = self.carriers(i);
             let place = &self.places[i];
             let links = [rides, guides].map(|l| self.row(l));
@@ -176,21 +174,6 @@ impl Kinematic<'_> {
         })
     }
 
-    /// The pieces of a joint's symbol, with what stands round it.
-    pub(in crate::draw::kinematic) fn parts(
-        &self,
-        joint: JointId,
-        of: &JointType,
-        symbol: &Symbol,
-        mark: Mark,
-    ) -> Vec<Piece> {
-        let (below, above) = symbol.round(self.subject, joint, mark);
-        let own = symbols::pieces(of).iter().chain(symbol.arrow());
-        let own = own.map(|p| p.sized(mark.class(), symbol.size));
-        let parts = below.iter().map(Piece::on_paper).chain(own);
-        parts.chain(above.iter().map(Piece::on_paper)).collect()
-    }
-
     /// Makes room for what a swap puts at a joint, and returns that with the number of the joint's spot and its axes; `None` if
     /// the joint is not drawn.
     pub(in crate::draw::kinematic) fn make_room(
@@ -218,8 +201,7 @@ impl Kinematic<'_> {
             let Some((i, symbol, place)) = self.make_room(swap) else {
                 continue;
             };
-            let of = &swap.option.joint_type;
-            let mut parts = self.parts(swap.joint, of, &symbol, Mark::Changed);
+            let mut parts = symbol.pieces(Mark::Changed);
             if swap.unloading {
                 parts.push(Piece::on_paper(&placed::ring(symbol.reach())));
             }
