@@ -14,7 +14,6 @@ mod bands;
 mod data;
 mod drawn;
 mod frame;
-mod labels;
 mod line;
 mod page;
 mod polygons;

@@ -21,7 +21,6 @@ pub use kinematic::{kinematic, kinematic_seen, kinematic_stressed};
 
 pub use place::projection::Sight;
 pub use scheme::scheme;
-pub(crate) use scheme::scheme_with;
 pub use sheet::STYLE as SHEET_STYLE;
 pub use sheet::{Drawing, Label};
 pub use subject::{Marks, Subject};

@@ -30,7 +30,6 @@ use crate::view::analysis::Analysis;
 use maud::{Markup, PreEscaped, html};
 use policy::{POLICY, STYLE};
 use serde_json::Value;
-use symbols::Drawn;
 
 pub use contents::{Commands, Page, Redesigns, SHOWN};
 pub use symbols::named_swaps;
@@ -114,9 +113,7 @@ fn head(name: &str) -> Markup {
 pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
     let m = page.mechanism;
     let analysis = Analysis::new(m, page.states, &[]);
-    let drawn: Vec<Drawn<'_>> = m.state_ids().map(|s| Drawn::new(page, s)).collect();
-    let (store, swaps) = symbols::store(&drawn);
-    let data = data::script(page, &analysis, found(page)?, &swaps);
+    let data = data::script(page, &analysis, found(page)?);
     let section = |n: usize, inside: Markup| {
         let (mark, head) = SECTIONS[n];
         html! {
@@ -150,7 +147,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                         (explorer::stage(page, &analysis))
                         (section(1, explorer::redesigns(page)))
                     }
-                    (section(2, states::html(&analysis, &drawn)))
+                    (section(2, states::html(page, &analysis)))
                     (section(3, certainty::html(page, &analysis)))
                     (section(4, page.commands.html()))
                     section id="sources" {
@@ -158,7 +155,6 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                         ul { @for s in &m.sources { li { (s) } } }
                     }
                 }
-                svg.store aria-hidden="true" width="0" height="0" { defs { (store) } }
                 script type="application/json" id="data" { (PreEscaped(data)) }
                 script { @for (_, part) in SHARED { (PreEscaped(part)) } @for part in SCRIPT { (PreEscaped(part)) } }
             }

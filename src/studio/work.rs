@@ -96,7 +96,7 @@ fn motion(room: &Room, revision: u64, m: &Mechanism, states: &[StateAnalysis]) {
             return;
         }
         let of = found.meant.as_deref().unwrap_or(m);
-        let made = moving_scene(of, (found, state), &[], true);
+        let made = moving_scene(of, (found, state), &[]);
         moving.push(made.map(|(_, scene)| scene));
     }
     room.tell(

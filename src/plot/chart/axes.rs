@@ -31,12 +31,7 @@ impl PlotAxes {
         let left = (PAD + left + 8.0).max(48.0);
         let room = Room::Across(right - left, left - 4.0, WIDTH - right - 4.0);
         PlotAxes {
-            plot: Rect {
-                left,
-                top,
-                right,
-                bottom: top + height,
-            },
+            plot: Rect::new(left, top, right, top + height),
             height,
             x: across(room),
             y,
@@ -47,8 +42,7 @@ impl PlotAxes {
     pub(super) fn draw(&self, xml: &mut Xml, across: &str, up: &str) {
         let plot = &self.plot;
         let label = text::cut(up, TICK, WIDTH - 2.0 * PAD);
-        let text = xml.tag("text").set("class", "name").num("x", PAD);
-        text.num("y", plot.top - 14.0).text(&label);
+        frame::label(xml, "name", (PAD, plot.top - 14.0), "").text(&label);
         frame::up(xml, &self.y, plot);
         frame::across(xml, &self.x, across, plot);
         let corners = [plot.left, plot.right].map(|x| (x, plot.bottom));

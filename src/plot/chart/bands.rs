@@ -43,27 +43,18 @@ impl Bands {
         for (kind, meaning) in MEANINGS {
             if bands().any(|b| b.2 == kind) {
                 bar(&mut xml, kind, x, x + 22.0, top - 20.0, "");
-                let text = xml.tag("text").set("class", "soft").num("x", x + 28.0);
-                text.num("y", top - 16.0).text(meaning);
+                frame::label(&mut xml, "soft", (x + 28.0, top - 16.0), "").text(meaning);
                 x += 28.0 + text::width(meaning, TICK) + 18.0;
             }
         }
-        let plot = Rect {
-            left,
-            top,
-            right,
-            bottom,
-        };
+        let plot = Rect::new(left, top, right, bottom);
         frame::across(&mut xml, &ruler, &self.x.label, &plot);
         for (n, (name, bands)) in self.rows.iter().enumerate() {
             let y = top + ROW * n as f64;
             frame::stroke(&mut xml, "grid", (PAD, y), (right, y));
-            let text = xml
-                .tag("text")
-                .set("class", "name")
-                .set("text-anchor", "end");
-            let text = text.num("x", left - 10.0).num("y", y + ROW / 2.0 + 4.0);
-            text.text_and_tip(&text::cut(name, TICK, 250.0), name.trim());
+            let at = (left - 10.0, y + ROW / 2.0 + 4.0);
+            frame::label(&mut xml, "name", at, "end")
+                .text_and_tip(&text::cut(name, TICK, 250.0), name.trim());
             for &(from, to, kind) in bands {
                 let Some((a, b)) = self.places(&ruler, from, to) else {
                     continue;

@@ -1,9 +1,10 @@
 //! Drawing of the series of a chart: lines, marks, names.
 
 use super::data::{Series, Style};
-use super::{frame, labels};
+use super::frame;
 use crate::chart::style::{COLOURS, PAD, TICK, WIDTH};
 use crate::format::tooltip;
+use crate::svg::labels::{self, Wish};
 use crate::svg::plane::Rect;
 use crate::svg::text;
 use crate::svg::xml::{Xml, number};
@@ -225,38 +226,94 @@ pub(super) fn beside_points(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
         .iter()
         .filter(|d| d.lone() && !d.series.name.is_empty());
     let lone: Vec<_> = lone.filter_map(|d| Some((d.end()?, d))).collect();
-    let points: Vec<_> = lone.iter().map(|l| l.0).collect();
-    let names: Vec<_> = lone
-        .iter()
-        .map(|l| text::cut(&l.1.series.name, TICK, plot.right - plot.left - 40.0))
-        .collect();
-    let sizes: Vec<_> = names.iter().map(|n| (text::width(n, TICK), 15.0)).collect();
-    let room = Rect {
-        left: plot.left + 2.0,
-        top: plot.top - 8.0,
-        right: plot.right + 30.0,
-        bottom: plot.bottom - 2.0,
-    };
-    for ((rect, name), &(x, y)) in labels::beside(&points, &sizes, room)
-        .iter()
-        .zip(&names)
-        .zip(&points)
-    {
-        let near = rect.nearest([x, y]);
-        if (near[0] - x).hypot(near[1] - y) > 16.0 {
-            frame::stroke(xml, "lead", (x, y), near.into());
+    let name = |s: &Series| text::cut(&s.name, TICK, plot.right - plot.left - 40.0);
+    let names: Vec<String> = lone.iter().map(|l| name(l.1.series)).collect();
+    let wishes = lone.iter().zip(&names).map(|(l, name)| Wish {
+        height: 15.0,
+        ..Wish::of(name, TICK, l.0.into(), 6.0)
+    });
+    let wishes: Vec<Wish> = wishes.collect();
+    let room = Rect::new(
+        plot.left + 2.0,
+        plot.top - 8.0,
+        plot.right + 30.0,
+        plot.bottom - 2.0,
+    );
+    let points = lone.iter().map(|l| Rect::around(l.0.into(), 12.0, 12.0));
+    let mut taken: Vec<Rect> = points.chain(around(&room)).collect();
+    let places = labels::place(&wishes, &mut taken, &[]);
+    for ((place, name), ((x, _), _)) in places.iter().zip(&names).zip(&lone) {
+        let mut rect = place.rect;
+        if !rect.within(&room) {
+            // There is no room left: it starts at the left edge.
+            rect = rect.moved([room.left - rect.left, 0.0]);
         }
-        let (anchor, at) = match (rect.left >= x, rect.right <= x) {
+        if let Some((from, to)) = place.leader {
+            frame::stroke(xml, "lead", from.into(), to.into());
+        }
+        let (anchor, at) = match (rect.left >= *x, rect.right <= *x) {
             (true, _) => ("start", rect.left),
             (_, true) => ("end", rect.right),
             _ => ("middle", f64::midpoint(rect.left, rect.right)),
         };
-        let text = xml
-            .tag("text")
-            .set("class", "name halo")
-            .set("text-anchor", anchor);
-        text.num("x", at).num("y", rect.bottom - 3.5).text(name);
+        frame::label(xml, "name halo", (at, rect.bottom - 3.5), anchor).text(name);
     }
+}
+
+/// Returns rectangles that cover all around a room.
+fn around(room: &Rect) -> [Rect; 4] {
+    const FAR: f64 = 1e3;
+    let all = room.grown(FAR);
+    [
+        Rect {
+            right: room.left,
+            ..all
+        },
+        Rect {
+            left: room.right,
+            ..all
+        },
+        Rect {
+            bottom: room.top,
+            ..all
+        },
+        Rect {
+            top: room.bottom,
+            ..all
+        },
+    ]
+}
+
+/// Returns heights at least `step` apart within `from..=to`, in the order of the requested ones and as near to them as
+/// possible.
+///
+/// The requested heights must ascend. If there is too little space, the last ones go below it.
+fn spread(wishes: &[f64], step: f64, from: f64, to: f64) -> Vec<f64> {
+    // least squares with a fixed order: pools of neighbours that push each other take their mean
+    let mut pools: Vec<(f64, usize)> = Vec::new();
+    for (n, wish) in wishes.iter().enumerate() {
+        let mut pool = (wish - n as f64 * step, 1);
+        while let Some(&(mean, count)) = pools.last() {
+            if mean <= pool.0 {
+                break;
+            }
+            let all = count + pool.1;
+            pool = (
+                (mean * count as f64 + pool.0 * pool.1 as f64) / all as f64,
+                all,
+            );
+            pools.pop();
+        }
+        pools.push(pool);
+    }
+    let last = (to - wishes.len().saturating_sub(1) as f64 * step).max(from);
+    let means = pools
+        .iter()
+        .flat_map(|&(mean, count)| std::iter::repeat_n(mean, count));
+    means
+        .enumerate()
+        .map(|(n, mean)| mean.clamp(from, last) + n as f64 * step)
+        .collect()
 }
 
 /// Draws the names of all other series in the margin, each near the end of its line and with a sample of it.
@@ -268,7 +325,7 @@ pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
     ends.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
     let wishes: Vec<_> = ends.iter().map(|(end, _)| end.1).collect();
     let half = STEP / 2.0;
-    let heights = labels::spread(&wishes, STEP, plot.top + half, plot.bottom - half);
+    let heights = spread(&wishes, STEP, plot.top + half, plot.bottom - half);
     for ((end, d), y) in ends.iter().zip(heights) {
         let from = plot.right + LEAD;
         if plot.right - end.0 < 12.0 {
@@ -287,10 +344,23 @@ pub(super) fn margin(xml: &mut Xml, drawn: &[DrawnSeries], plot: &Rect) {
         }
         let at = from + SAMPLE + 8.0;
         let name = text::cut(&d.series.name, TICK, WIDTH - PAD / 2.0 - at);
-        xml.tag("text")
-            .set("class", "name")
-            .num("x", at)
-            .num("y", y + 4.0)
-            .text_and_tip(&name, &d.series.name);
+        frame::label(xml, "name", (at, y + 4.0), "").text_and_tip(&name, &d.series.name);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spread;
+
+    #[test]
+    fn names_keep_apart_and_near() {
+        assert_eq!(spread(&[10.0, 50.0], 16.0, 0.0, 100.0), [10.0, 50.0]);
+        assert_eq!(spread(&[50.0, 50.0], 16.0, 0.0, 100.0), [42.0, 58.0]);
+        assert_eq!(
+            spread(&[99.0, 100.0, 100.0], 10.0, 0.0, 100.0),
+            [80.0, 90.0, 100.0]
+        );
+        assert_eq!(spread(&[1.0, 2.0], 10.0, 0.0, 5.0), [0.0, 10.0]);
+        assert!(spread(&[], 10.0, 0.0, 5.0).is_empty());
     }
 }

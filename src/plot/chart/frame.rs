@@ -4,7 +4,7 @@ use super::axis::{Label, Ruler};
 use crate::chart::style::{PAD, STYLE, TICK};
 use crate::svg::plane::Rect;
 use crate::svg::text;
-use crate::svg::xml::Xml;
+use crate::svg::xml::{Tag, Xml};
 
 /// The title and the sentence under it, broken into lines.
 #[derive(Debug)]
@@ -33,11 +33,7 @@ impl Head {
             y += if class == "sub" { 3.0 } else { 0.0 };
             for line in lines {
                 y += step;
-                xml.tag("text")
-                    .set("class", class)
-                    .num("x", PAD)
-                    .num("y", y)
-                    .text(line);
+                label(xml, class, (PAD, y), "").text(line);
             }
         }
     }
@@ -75,15 +71,24 @@ pub(super) fn stroke(xml: &mut Xml, class: &str, from: (f64, f64), to: (f64, f64
     line.num("x2", to.0).num("y2", to.1).close();
 }
 
+/// Begins a text; `anchor` is the SVG text anchor, or empty if the text starts at the point.
+pub(super) fn label<'x>(
+    xml: &'x mut Xml,
+    class: &str,
+    (x, y): (f64, f64),
+    anchor: &str,
+) -> Tag<'x> {
+    let text = xml.tag("text").set("class", class).num("x", x).num("y", y);
+    if anchor.is_empty() {
+        text
+    } else {
+        text.set("text-anchor", anchor)
+    }
+}
+
 /// Draws a tick's label; `anchor` is the SVG text anchor.
 pub(super) fn tick(xml: &mut Xml, label: &Label, at: (f64, f64), anchor: &str, class: &str) {
-    let class = format!("soft {class}");
-    let text = xml
-        .tag("text")
-        .set("class", &class)
-        .num("x", at.0)
-        .num("y", at.1);
-    text.set("text-anchor", anchor).open();
+    self::label(xml, &format!("soft {class}"), at, anchor).open();
     xml.text(&label.base);
     if let Some(power) = &label.power {
         xml.tag("tspan")
@@ -97,12 +102,7 @@ pub(super) fn tick(xml: &mut Xml, label: &Label, at: (f64, f64), anchor: &str, c
 /// Draws the horizontal axis: lines over the plot from `top` to `bottom`, labels below, and the name of the axis under
 /// them.
 pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &Rect) {
-    let &Rect {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot;
+    let [left, top, right, bottom] = plot.edges();
     for at in &ruler.fine {
         let x = left + at * (right - left);
         stroke(xml, "fine", (x, top), (x, bottom));
@@ -120,22 +120,12 @@ pub(super) fn across(xml: &mut Xml, ruler: &Ruler, name: &str, plot: &Rect) {
     }
     let room = right - left;
     let name = text::cut(name, TICK, room.max(300.0));
-    let at = xml
-        .tag("text")
-        .set("class", "name")
-        .num("x", right)
-        .num("y", bottom + 38.0);
-    at.set("text-anchor", "end").text(&name);
+    label(xml, "name", (right, bottom + 38.0), "end").text(&name);
 }
 
 /// Draws the vertical axis: lines over the plot and labels before it.
 pub(super) fn up(xml: &mut Xml, ruler: &Ruler, plot: &Rect) {
-    let &Rect {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot;
+    let [left, top, right, bottom] = plot.edges();
     let height = |at: f64| bottom - at * (bottom - top);
     for at in &ruler.fine {
         stroke(xml, "fine", (left, height(*at)), (right, height(*at)));

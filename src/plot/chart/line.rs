@@ -46,11 +46,7 @@ impl Chart {
         drawn::margin(&mut xml, &drawn, &axes.plot);
         for (n, line) in note.iter().enumerate() {
             let y = foot + 16.0 * n as f64;
-            xml.tag("text")
-                .set("class", "soft small")
-                .num("x", PAD)
-                .num("y", y)
-                .text(line);
+            frame::label(&mut xml, "soft small", (PAD, y), "").text(line);
         }
         xml.finish()
     }

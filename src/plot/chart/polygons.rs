@@ -1,9 +1,10 @@
 //! Vectors set head to tail in adjacent panels: force plans that close in equilibrium.
 
-use super::frame::{Head, begin, stroke};
+use super::frame::{Head, begin, label, stroke};
 use crate::chart::style::{PAD, WIDTH};
 use crate::format::{csv, significant};
-use crate::svg::plane::{Point, Rect, add, norm, scale, sub, unit};
+use crate::svg::plane::{Point, Rect, add, bounds, norm, polyline, scale, sub, unit};
+use crate::svg::xml::Xml;
 
 /// A vector of a plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,18 +111,8 @@ impl Polygons {
                 };
                 #[allow(clippy::cast_precision_loss, reason = "two columns")]
                 let left = PAD + k as f64 * (half + PAD);
-                let room = Rect {
-                    left,
-                    top: top + 22.0,
-                    right: left + half,
-                    bottom: top + 22.0 + PLAN,
-                };
-                let title = xml
-                    .tag("text")
-                    .set("class", "sub")
-                    .num("x", left)
-                    .num("y", top + 14.0);
-                title.text(&panel.title);
+                let room = Rect::new(left, top + 22.0, left + half, top + 22.0 + PLAN);
+                label(&mut xml, "sub", (left, top + 14.0), "").text(&panel.title);
                 plan(&mut xml, panel, &boxes[k], &room, by);
                 self.list(&mut xml, panel, [left, room.bottom + LINE]);
             }
@@ -131,14 +122,10 @@ impl Polygons {
     }
 
     /// Writes the vectors by name and size.
-    fn list(&self, xml: &mut crate::svg::xml::Xml, panel: &Panel, [x, mut y]: Point) {
+    fn list(&self, xml: &mut Xml, panel: &Panel, [x, mut y]: Point) {
         for a in &panel.arrows {
-            stroke(
-                xml,
-                &format!("line c{}", a.colour),
-                (x, y - 4.0),
-                (x + 18.0, y - 4.0),
-            );
+            let line = format!("line c{}", a.colour);
+            stroke(xml, &line, (x, y - 4.0), (x + 18.0, y - 4.0));
             let angle = a.vector[1].atan2(a.vector[0]).to_degrees();
             let text = format!(
                 "{}: {} {} at {angle:.1}°",
@@ -146,47 +133,28 @@ impl Polygons {
                 significant(norm(a.vector)),
                 self.unit
             );
-            xml.tag("text")
-                .set("class", "small")
-                .num("x", x + 24.0)
-                .num("y", y)
-                .text(&text);
+            label(xml, "small", (x + 24.0, y), "").text(&text);
             y += LINE;
         }
         let share = panel.gap() / panel.longest().max(1e-300);
         let text = format!("closes to {share:.0e} of the longest");
-        xml.tag("text")
-            .set("class", "small soft")
-            .num("x", x + 24.0)
-            .num("y", y)
-            .text(&text);
+        label(xml, "small soft", (x + 24.0, y), "").text(&text);
     }
 
     /// Returns one vector per line.
     #[must_use]
     pub fn csv(&self) -> String {
         let panels = self.rows.iter().flat_map(|r| &r.panels);
-        let rows = panels.flat_map(|p| {
-            p.arrows.iter().map(|a| {
-                vec![
-                    p.title.clone(),
-                    a.name.clone(),
-                    format!("{:?}", a.vector[0]),
-                    format!("{:?}", a.vector[1]),
-                ]
-            })
-        });
+        let row = |p: &Panel, a: &PlanArrow| {
+            let [x, y] = a.vector.map(|x| format!("{x:?}"));
+            vec![p.title.clone(), a.name.clone(), x, y]
+        };
+        let rows = panels.flat_map(|p| p.arrows.iter().map(move |a| row(p, a)));
         csv::table(&["plan", "vector", "x", "y"], rows)
     }
 }
 
-fn bounds(points: &[Point]) -> Rect {
-    let around = |p: &Point| Rect::around(*p, 0.0, 0.0);
-    let all = points.iter().map(around).reduce(|a, b| a.with(&b));
-    all.unwrap_or(Rect::around([0.0; 2], 0.0, 0.0))
-}
-
-fn plan(xml: &mut crate::svg::xml::Xml, panel: &Panel, is: &Rect, room: &Rect, by: f64) {
+fn plan(xml: &mut Xml, panel: &Panel, is: &Rect, room: &Rect, by: f64) {
     let to = |p: Point| add(room.middle(), scale(sub(p, is.middle()), by));
     let corners: Vec<Point> = panel.corners().into_iter().map(to).collect();
     for (a, ends) in panel.arrows.iter().zip(corners.windows(2)) {
@@ -201,17 +169,12 @@ fn plan(xml: &mut crate::svg::xml::Xml, panel: &Panel, is: &Rect, room: &Rect, b
         stroke(
             xml,
             &format!("line c{}", a.colour),
-            (from[0], from[1]),
-            (neck[0], neck[1]),
+            from.into(),
+            neck.into(),
         );
         let corners = [to, add(neck, aside), sub(neck, aside)];
-        let points = corners
-            .map(|p| format!("{:.2},{:.2}", p[0], p[1]))
-            .join(" ");
-        xml.tag("polygon")
-            .set("class", &format!("f{}", a.colour))
-            .set("points", &points)
-            .close();
+        let head = xml.tag("path").set("class", &format!("f{}", a.colour));
+        head.set("d", &polyline(&corners, true)).close();
         if long >= 24.0 {
             let middle = scale(add(from, to), 0.5);
             // To the left of its direction, so that two opposite vectors have their names apart.
@@ -222,12 +185,7 @@ fn plan(xml: &mut crate::svg::xml::Xml, panel: &Panel, is: &Rect, room: &Rect, b
                 x if x < -0.3 => "end",
                 _ => "middle",
             };
-            xml.tag("text")
-                .set("class", "small halo")
-                .num("x", at[0])
-                .num("y", at[1] + 4.0)
-                .set("text-anchor", anchor)
-                .text(&a.name);
+            label(xml, "small halo", (at[0], at[1] + 4.0), anchor).text(&a.name);
         }
     }
 }

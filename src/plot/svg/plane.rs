@@ -21,15 +21,22 @@ pub struct Rect {
 }
 
 impl Rect {
+    /// Returns the rectangle between four edges.
+    #[must_use]
+    pub const fn new(left: f64, top: f64, right: f64, bottom: f64) -> Rect {
+        Rect {
+            left,
+            top,
+            right,
+            bottom,
+        }
+    }
+
     /// Returns the rectangle of a size around a middle.
     #[must_use]
-    pub fn around(middle: Point, width: f64, height: f64) -> Rect {
-        Rect {
-            left: middle[0] - width / 2.0,
-            top: middle[1] - height / 2.0,
-            right: middle[0] + width / 2.0,
-            bottom: middle[1] + height / 2.0,
-        }
+    pub fn around([x, y]: Point, width: f64, height: f64) -> Rect {
+        let (w, h) = (width / 2.0, height / 2.0);
+        Rect::new(x - w, y - h, x + w, y + h)
     }
 
     /// Returns true if the two share an area.
@@ -44,30 +51,16 @@ impl Rect {
     /// Returns the rectangle with a margin on every side.
     #[must_use]
     pub fn grown(&self, by: f64) -> Rect {
-        Rect {
-            left: self.left - by,
-            top: self.top - by,
-            right: self.right + by,
-            bottom: self.bottom + by,
-        }
+        let (low, high) = (self.left - by, self.top - by);
+        Rect::new(low, high, self.right + by, self.bottom + by)
     }
 
     /// Returns the smallest rectangle around both.
     #[must_use]
     pub fn with(&self, other: &Rect) -> Rect {
-        Rect {
-            left: self.left.min(other.left),
-            top: self.top.min(other.top),
-            right: self.right.max(other.right),
-            bottom: self.bottom.max(other.bottom),
-        }
-    }
-
-    /// Returns the area that the two share.
-    pub(crate) fn overlap(&self, other: &Rect) -> f64 {
-        let across = self.right.min(other.right) - self.left.max(other.left);
-        let down = self.bottom.min(other.bottom) - self.top.max(other.top);
-        across.max(0.0) * down.max(0.0)
+        let (left, top) = (self.left.min(other.left), self.top.min(other.top));
+        let (right, bottom) = (self.right.max(other.right), self.bottom.max(other.bottom));
+        Rect::new(left, top, right, bottom)
     }
 
     /// Returns true if it lies completely inside another.
@@ -76,6 +69,11 @@ impl Rect {
             && self.top >= room.top
             && self.right <= room.right
             && self.bottom <= room.bottom
+    }
+
+    /// Returns its left, top, right and bottom edge.
+    pub fn edges(&self) -> [f64; 4] {
+        [self.left, self.top, self.right, self.bottom]
     }
 
     /// Returns its middle.
@@ -95,13 +93,10 @@ impl Rect {
         ]
     }
 
-    pub fn moved(&self, by: Point) -> Rect {
-        Rect {
-            left: self.left + by[0],
-            top: self.top + by[1],
-            right: self.right + by[0],
-            bottom: self.bottom + by[1],
-        }
+    /// Returns it moved.
+    pub fn moved(&self, [x, y]: Point) -> Rect {
+        let (left, top) = (self.left + x, self.top + y);
+        Rect::new(left, top, self.right + x, self.bottom + y)
     }
 
     /// Returns true if a segment touches it.
@@ -120,6 +115,13 @@ impl Rect {
             || segments_cross(a, b, corners[0], corners[2])
             || segments_cross(a, b, corners[1], corners[3])
     }
+}
+
+/// Returns the smallest rectangle around some points, or an empty one at the origin.
+pub fn bounds(points: &[Point]) -> Rect {
+    let all = points.iter().map(|&p| Rect::around(p, 0.0, 0.0));
+    let all = all.reduce(|a, b| a.with(&b));
+    all.unwrap_or(Rect::new(0.0, 0.0, 0.0, 0.0))
 }
 
 /// Returns the mean of some points, or the origin if there are none.

@@ -16,17 +16,17 @@ pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::{Body, Marked};
-use super::subject::{Mark, Subject};
+use self::moving::frame::MovingPicture;
+use super::subject::Subject;
 use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{self, JointInSpace, Projection, Vector, bounds};
-use crate::draw::sheet::labels::LabelPlace;
-use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
+use crate::draw::place::projection::{JointInSpace, Projection, Vector};
+use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, Swatch, plan};
 use crate::draw::subject;
 use crate::draw::symbol::ground::Ground;
-use crate::draw::symbol::placed::{self, Swap, Symbol};
+use crate::draw::symbol::placed::{Swap, Symbol};
 use crate::model::mechanism::{JointId, LinkId, Role};
 use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect, add, mean, polyline, scale, sub, unit};
+use crate::svg::plane::{Point, Rect, add, mean, scale, sub, unit};
 
 /// The room below for the axes and the scale.
 const STRIP: f64 = 84.0;
@@ -57,37 +57,14 @@ pub fn kinematic_stressed(
     drawn.draw()
 }
 
-/// The kinematic scheme with room for the symbols of other joints in place of some, and for each swap the SVG elements
-/// that stand in the group of its joint (`data-joint`) instead of those there, marked as changed.
+/// Draws the kinematic scheme with room for the symbols of other joints in place of some.
 #[must_use]
-pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
+pub(crate) fn kinematic_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> Drawing {
     let mut drawn = Kinematic::new(subject, &Sight::default());
-    let mut out = Vec::new();
     for swap in swaps {
-        let (joint, option) = (swap.joint, swap.option);
-        let spot = drawn.spots.iter().find(|s| s.joint == joint);
-        let size = spot.map_or(1.0, |s| s.symbol.size);
-        let symbol = Symbol::new(
-            subject,
-            joint,
-            &option.joint_type,
-            &projection::turned(&option.frame),
-            &drawn.projection.view,
-            size,
-            spot.and_then(|s| s.symbol.slide),
-        );
-        let symbol = symbol.marked(Mark::Changed);
-        let mut piece = Sheet::piece();
-        symbol.draw(&mut piece, subject, joint, Mark::Changed);
-        if swap.unloading {
-            piece.shapes(&[placed::ring(symbol.reach())], [0.0; 2]);
-        }
-        out.push(piece.into_text());
-        if let Some(spot) = drawn.spots.iter_mut().find(|s| s.joint == joint) {
-            spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
-        }
+        drawn.make_room(swap);
     }
-    (drawn.draw(), out)
+    drawn.draw()
 }
 
 /// A joint on paper.
@@ -97,6 +74,13 @@ struct Spot {
     symbol: Symbol,
     /// The room of the symbol, the ring of a drive included.
     rect: Rect,
+}
+
+/// The texts round a scheme: the line under the title where it is not the figures, the end of the description, the legend.
+struct Words {
+    shows: Option<String>,
+    more: String,
+    legend: Vec<(Swatch, String)>,
 }
 
 /// What a label says, and how it looks.
@@ -131,25 +115,6 @@ struct Kinematic<'a> {
 }
 
 impl Kinematic<'_> {
-    /// The shape of a link.
-    fn body(&self, link: usize) -> Body {
-        let (l, of) = &self.links[link];
-        let made = self.arc(link, |p| p);
-        if let Some(mut made) = made.or_else(|| self.facet(link, |p| p)) {
-            // The joints may have been moved to their place on the sheet.
-            let by = sub(
-                self.spots[of[0]].at,
-                self.projection.flat(self.places[of[0]].point),
-            );
-            made.points.iter_mut().for_each(|p| *p = add(*p, by));
-            return made;
-        }
-        let mut points: Vec<Point> = of.iter().map(|&i| self.spots[i].at).collect();
-        points.extend(self.points_of(*l).map(|p| p.at));
-        points.extend(self.loose(link));
-        Body::new(&points).bowed(self.bows[link])
-    }
-
     /// The end of a link with one joint, and no point of interest that it leads to.
     fn loose(&self, link: usize) -> Option<Point> {
         let (link, of) = &self.links[link];
@@ -181,75 +146,66 @@ impl Kinematic<'_> {
     }
 
     fn draw(mut self) -> Drawing {
-        let (places, texts) = self.place_labels();
-        let circles = self.circles();
-        let area = self.drawn_room(&places, &circles);
-        let title = self.subject.title();
-        let [what, figures] = self.subject.subtitle(&self.what());
-        let shows = self.shows.take().unwrap_or(figures);
-        let caption = Caption {
-            title: &title,
-            subtitle: [&what, &shows],
-            description: &self.description(),
+        let rest = self.picture(None, &[]);
+        let (places, texts) = self.place_labels(&rest);
+        let labels = places.iter().map(|p| p.rect);
+        let room = labels.chain(self.arrow_room(&self.arrows));
+        let area = room.fold(self.room_of(std::slice::from_ref(&rest), 0), |a, r| {
+            a.with(&r)
+        });
+        let words = Words {
+            shows: self.shows.take(),
+            more: String::new(),
             legend: self.legend(),
         };
+        self.on_sheet(area, words, |sheet, by| {
+            sheet.group("data-drawing", "", by, |s| {
+                self.draw_ground(s);
+                self.draw_at_rest(s, &rest);
+                for (a, b) in self.coupling_lines() {
+                    s.line(subject::COUPLING, a, b);
+                }
+                for (a, b) in places.iter().filter_map(|p| p.leader) {
+                    s.line("lead", a, b);
+                }
+                self.draw_arrows(s);
+                for (n, (place, text)) in places.iter().zip(&texts).enumerate() {
+                    self.draw_name(s, n, place.rect.middle(), text);
+                }
+            });
+        })
+    }
+
+    /// Lays a sheet out round an area and draws on it; `draw` is given what moves the scheme to its place.
+    fn on_sheet(&self, area: Rect, words: Words, draw: impl FnOnce(&mut Sheet, Point)) -> Drawing {
+        let [what, figures] = self.subject.subtitle(&self.what());
+        let caption = Caption {
+            title: &self.subject.title(),
+            subtitle: [&what, words.shows.as_ref().unwrap_or(&figures)],
+            description: &(self.description() + &words.more),
+            legend: words.legend,
+        };
         let plan = plan(&caption, area, STRIP);
-        let by = plan.shift;
-        for s in &mut self.spots {
-            s.at = add(s.at, by);
-            s.rect = s.rect.moved(by);
-        }
-        self.shift_ground(by);
         let mut sheet = Sheet::new(&caption, &plan);
-        self.draw_links(&mut sheet);
-        self.draw_traces(&mut sheet);
-        self.draw_couplings(&mut sheet, &circles, by);
-        self.draw_ground(&mut sheet);
-        for (a, b) in places.iter().filter_map(|p| p.leader) {
-            sheet.line("lead", add(a, by), add(b, by));
-        }
-        self.draw_points(&mut sheet);
-        self.draw_joints(&mut sheet);
-        self.draw_arrows(&mut sheet, by);
-        for (n, (place, text)) in places.iter().zip(&texts).enumerate() {
-            self.draw_name(&mut sheet, n, place.rect.moved(by).middle(), text);
-        }
-        self.draw_below(&mut sheet, &plan);
+        draw(&mut sheet, plan.shift);
+        let below = plan.legend_top - STRIP;
+        sheet.group("data-home", "scale", [0.0; 2], |s| {
+            self.draw_axes(s, below + 34.0);
+            self.draw_scale(s, below + 40.0);
+        });
         sheet.finish(&caption, &plan)
     }
 
-    /// The room of all that is drawn, before anything is moved to its place on the sheet.
-    fn drawn_room(&self, labels: &[LabelPlace], circles: &[Vec<Vec<Point>>]) -> Rect {
-        let mut area = bounds(&self.spots.iter().map(|s| s.at).collect::<Vec<_>>());
-        let all = self.spots.iter().map(|s| s.rect);
-        let all = all.chain(self.grounds.iter().map(Ground::rect));
-        let all = all.chain(labels.iter().map(|p| p.rect));
-        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
-        let ends = moving.filter_map(|l| self.loose(l));
-        for r in all.chain(ends.map(|p| Rect::around(p, 8.0, 8.0))) {
-            area = area.with(&r);
-        }
-        for l in 0..self.links.len() {
-            area = area.with(&bounds(&self.body(l).points).grown(3.0));
-        }
-        for p in self.points.iter().map(|p| p.at).chain(self.traced()) {
-            area = area.with(&Rect::around(p, 10.0, 10.0));
-        }
-        let arrows = self.arrow_room(&self.arrows);
-        area = arrows.map_or(area, |r| area.with(&r));
-        for c in circles.iter().flatten() {
-            area = area.with(&bounds(c).grown(1.0));
-        }
-        area
-    }
-
-    fn draw_joints(&self, sheet: &mut Sheet) {
+    /// A picture with the symbols of the pose of the file, in groups that say what each part is.
+    fn draw_at_rest(&self, sheet: &mut Sheet, picture: &MovingPicture) {
+        self.draw_traces(sheet);
+        self.draw_picture(sheet, picture, true);
         for s in self.outer_first().into_iter().map(|i| &self.spots[i]) {
             sheet.symbol(s.rect);
             let mark = self.subject.joint_mark(s.joint);
             let id = &self.subject.mechanism.joints[s.joint].id;
             sheet.group("data-joint", id, s.at, |sheet| {
-                s.symbol.draw(sheet, self.subject, s.joint, mark);
+                s.symbol.draw(sheet, mark);
             });
         }
     }
@@ -267,25 +223,6 @@ impl Kinematic<'_> {
         }
     }
 
-    fn draw_links(&self, sheet: &mut Sheet) {
-        for (n, (l, _)) in self.links.iter().enumerate() {
-            if self.is_frame(*l) {
-                continue;
-            }
-            let body = self.body(n);
-            let id = &self.subject.mechanism.links[*l].id;
-            sheet.group("data-link", id, [0.0; 2], |s| {
-                if body.points.len() > 1 {
-                    s.path_with_tip(
-                        &self.look(n, &body),
-                        &polyline(&body.points, body.plate),
-                        &format!("link {id}"),
-                    );
-                }
-            });
-        }
-    }
-
     /// The classes of a link.
     fn look(&self, link: usize, body: &Body) -> String {
         let (l, of) = &self.links[link];
@@ -299,28 +236,5 @@ impl Kinematic<'_> {
             self.subject.link_mark(*l).class(),
             if here { " dash" } else { "" }
         )
-    }
-
-    /// The pitch circles of each coupling, in the coordinates of the spots.
-    fn circles(&self) -> Vec<Vec<Vec<Point>>> {
-        let m = self.subject.mechanism;
-        m.couplings_in(self.subject.state)
-            .map(|c| self.pitch_circles(c, &self.places))
-            .collect()
-    }
-
-    /// Gears as their pitch circles, other couplings as a line from joint to joint.
-    fn draw_couplings(&self, sheet: &mut Sheet, circles: &[Vec<Vec<Point>>], by: Point) {
-        let m = self.subject.mechanism;
-        for (coupling, circles) in m.couplings_in(self.subject.state).zip(circles) {
-            for c in circles {
-                let c: Vec<Point> = c.iter().map(|&p| add(p, by)).collect();
-                sheet.path("fine pitch", &polyline(&c, true));
-            }
-            if circles.is_empty() {
-                let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);
-                subject::draw_line(sheet, coupling, place);
-            }
-        }
     }
 }

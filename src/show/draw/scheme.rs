@@ -7,13 +7,12 @@ use super::subject::{Mark, Subject, roominess};
 use crate::closure::contour::{Contour, contour_basis};
 use crate::draw::place::graph::{Graph, ring};
 use crate::draw::place::layout::{Layout, layout};
-use crate::draw::sheet::labels::LabelPlace;
 use crate::draw::sheet::shapes::{HALF, hatch, hatch_with, outline, rounded};
-use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Sheet, Swatch, plan};
-use crate::draw::symbol::placed::{self, Swap};
+use crate::draw::sheet::{Anchor, Caption, Drawing, SMALL, Shape, Sheet, Swatch, plan};
 use crate::geom::expr::Expr;
 use crate::model::mechanism::{JointId, LinkId, Role};
-use crate::svg::plane::{Point, Rect, add, inside, mean, norm, polyline, scale, sub, to_segment};
+use crate::svg::labels::LabelPlace;
+use crate::svg::plane::{Point, Rect, inside, mean, norm, polyline, scale, sub, to_segment};
 use std::fmt::Write as _;
 
 /// Pixels of a bar.
@@ -44,22 +43,6 @@ pub fn scheme(subject: &Subject<'_>) -> Drawing {
         *p = scale(*p, unit);
     }
     Scheme::new(subject, parts, at).draw()
-}
-
-/// The structural scheme, and for each swap the SVG elements that stand in the group of its joint (`data-joint`) instead
-/// of those there, marked as changed.
-#[must_use]
-pub(crate) fn scheme_with(subject: &Subject<'_>, swaps: &[Swap<'_>]) -> (Drawing, Vec<String>) {
-    let symbol = |s: &Swap<'_>| {
-        let mut piece = Sheet::piece();
-        let class = s.option.joint_type.class();
-        draw_symbol(&mut piece, subject, s.joint, class, Mark::Changed);
-        if s.unloading {
-            piece.shapes(&[placed::ring(DRIVE)], [0.0; 2]);
-        }
-        piece.into_text()
-    };
-    (scheme(subject), swaps.iter().map(symbol).collect())
 }
 
 fn parts(subject: &Subject<'_>) -> Parts {
@@ -177,7 +160,7 @@ impl<'a> Scheme<'a> {
         }
     }
 
-    fn draw(mut self) -> Drawing {
+    fn draw(self) -> Drawing {
         let labels = self.place_labels();
         let mut area = Rect::around(
             self.at.joints.first().copied().unwrap_or([0.0; 2]),
@@ -199,26 +182,25 @@ impl<'a> Scheme<'a> {
             legend: self.legend(),
         };
         let plan = plan(&caption, area, 0.0);
-        for p in self.at.joints.iter_mut().chain(self.at.hubs.iter_mut()) {
-            *p = add(*p, plan.shift);
-        }
         let mut sheet = Sheet::new(&caption, &plan);
-        let order = self.contours_by_size().into_iter();
-        let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
-        for c in seen {
-            self.draw_contour(&mut sheet, c, &polyline(&self.round(c), true));
-        }
-        for l in 0..self.rings.len() {
-            self.draw_link(&mut sheet, l);
-        }
-        for c in hidden {
-            self.draw_contour(&mut sheet, c, &self.band(c));
-        }
-        self.subject.draw_couplings(&mut sheet, |j| {
-            let i = self.parts.joints.iter().position(|&x| x == j)?;
-            Some(self.at.joints[i])
+        sheet.group("data-drawing", "", plan.shift, |sheet| {
+            let order = self.contours_by_size().into_iter();
+            let (seen, hidden): (Vec<usize>, Vec<usize>) = order.partition(|&c| self.is_seen(c));
+            for c in seen {
+                self.draw_contour(sheet, c, &polyline(&self.round(c), true));
+            }
+            for l in 0..self.rings.len() {
+                self.draw_link(sheet, l);
+            }
+            for c in hidden {
+                self.draw_contour(sheet, c, &self.band(c));
+            }
+            self.subject.draw_couplings(sheet, |j| {
+                let i = self.parts.joints.iter().position(|&x| x == j)?;
+                Some(self.at.joints[i])
+            });
+            self.draw_labels(sheet, &labels);
         });
-        self.draw_labels(&mut sheet, &labels, plan.shift);
         sheet.finish(&caption, &plan)
     }
 
@@ -245,18 +227,18 @@ impl<'a> Scheme<'a> {
         });
     }
 
-    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, String)], shift: Point) {
+    fn draw_labels(&self, sheet: &mut Sheet, labels: &[(LabelPlace, String)]) {
         let (joints, links) = (self.parts.joints.len(), self.parts.links.len());
         for (place, _) in labels {
             if let Some((a, b)) = place.leader {
-                sheet.line("lead", add(a, shift), add(b, shift));
+                sheet.line("lead", a, b);
             }
         }
         for i in 0..joints {
             self.draw_joint(sheet, i);
         }
         for (n, (place, text)) in labels.iter().enumerate() {
-            let rect = place.rect.moved(shift);
+            let rect = place.rect;
             let (class, size, mark) = if n < joints {
                 let mark = self.subject.joint_mark(self.parts.joints[n]);
                 if self.on_frame(rect.middle()) {
@@ -304,8 +286,15 @@ impl<'a> Scheme<'a> {
         sheet.group("data-joint", &joint.id, at, |s| {
             let r = 2.0 * self.radius(i);
             s.symbol(Rect::around([0.0; 2], r, r));
-            let mark = self.subject.joint_mark(id);
-            draw_symbol(s, self.subject, id, joint.joint_type.class(), mark);
+            let mark = self.subject.joint_mark(id).class();
+            let only_here = self.subject.only_here(id);
+            let look = format!("joint{mark}{}", if only_here { " dash" } else { "" });
+            if joint.drive {
+                s.circle(&look, [0.0; 2], DRIVE);
+            }
+            s.circle(&look, [0.0; 2], JOINT);
+            let class = joint.joint_type.class();
+            s.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
         });
     }
 
@@ -324,24 +313,23 @@ impl<'a> Scheme<'a> {
         }
         let any = |of: &dyn Fn(JointId) -> bool| self.parts.joints.iter().any(|&j| of(j));
         if any(&|j| m.joints[j].drive) {
-            let draw = |s: &mut Sheet, p: Point| {
-                s.circle("joint", p, 9.5);
-                s.circle("joint", p, 6.5);
-            };
-            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+            let circles = [9.5, 6.5].map(|r| Shape::circle("joint", [0.0; 2], r));
+            let text = "driving pair".to_owned();
+            out.push((Swatch::Shapes(circles.to_vec()), text));
         }
         let class = "joint with its class";
         out.push((Swatch::Joint("joint", "V".to_owned()), class.to_owned()));
-        let frame = |s: &mut Sheet, p: Point| {
-            let ends = [add(p, [-7.0, 0.0]), add(p, [7.0, 0.0])];
+        let frame = |s: &mut Sheet| {
+            let ends = [[-7.0, 0.0], [7.0, 0.0]];
             s.path("link", &rounded(&ends, 7.0));
             s.path("fine", &hatch_with(&ends, 6.4, 4.0));
         };
         out.push((Swatch::Symbol(frame), m.frame_words()));
         if any(&|j| self.subject.only_here(j)) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("joint dash", p, 9.5);
+            let circle = Shape::circle("joint dash", [0.0; 2], 9.5);
             let state = &m.states[self.subject.state];
-            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
+            let text = format!("in state {state} only");
+            out.push((Swatch::Shapes(vec![circle]), text));
         }
         out.extend(self.subject.coupling_row());
         out.extend(self.subject.mark_rows());
@@ -369,19 +357,4 @@ impl<'a> Scheme<'a> {
         }
         out + &self.subject.coupling_words()
     }
-}
-
-/// The symbol of a joint of some class, round the origin.
-fn draw_symbol(sheet: &mut Sheet, subject: &Subject<'_>, joint: JointId, class: &str, mark: Mark) {
-    let dash = if subject.only_here(joint) {
-        " dash"
-    } else {
-        ""
-    };
-    let look = format!("joint{}{dash}", mark.class());
-    if subject.mechanism.joints[joint].drive {
-        sheet.circle(&look, [0.0; 2], DRIVE);
-    }
-    sheet.circle(&look, [0.0; 2], JOINT);
-    sheet.text("class", 10.0, [0.0; 2], Anchor::Middle, class);
 }

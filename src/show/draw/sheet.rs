@@ -1,6 +1,5 @@
 //! The sheet a drawing is on: title, style, legend, and a record of every label and symbol.
 
-pub(in crate::draw) mod labels;
 pub(in crate::draw) mod shapes;
 
 use crate::svg::plane::{Point, Rect, add, norm, polyline, scale, sub};
@@ -52,12 +51,20 @@ pub struct Drawing {
 pub(super) enum Swatch {
     /// The tint of a contour with so many redundant constraints, and its number.
     Tint(usize, String),
-    /// Drawn by the caller's function into the middle given.
-    Symbol(fn(&mut Sheet, Point)),
+    /// Drawn by the caller's function round the origin.
+    Symbol(fn(&mut Sheet)),
     /// A joint with text in it.
     Joint(&'static str, String),
     /// Shapes round the origin.
     Shapes(Vec<Shape>),
+}
+
+impl Swatch {
+    /// A level line of a class.
+    pub(super) fn line(class: &str) -> Swatch {
+        let line = Shape::line(class, vec![[-9.0, 0.0], [9.0, 0.0]]);
+        Swatch::Shapes(vec![line])
+    }
 }
 
 /// A finished piece of drawing.
@@ -86,18 +93,29 @@ impl Shape {
         }
     }
 
-    /// An open path.
-    pub(super) fn line(class: String, points: Vec<Point>) -> Shape {
+    /// A path.
+    pub(super) fn path(class: impl Into<String>, points: Vec<Point>, closed: bool) -> Shape {
         Shape::Path {
-            class,
+            class: class.into(),
             points,
-            closed: false,
+            closed,
         }
+    }
+
+    /// An open path.
+    pub(super) fn line(class: impl Into<String>, points: Vec<Point>) -> Shape {
+        Shape::path(class, points, false)
+    }
+
+    /// A circle.
+    pub(super) fn circle(class: impl Into<String>, at: Point, radius: f64) -> Shape {
+        let class = class.into();
+        Shape::Circle { at, radius, class }
     }
 }
 
-/// A drawing under way.
-#[derive(Debug)]
+/// A drawing under way; the default is a piece without title or size.
+#[derive(Debug, Default)]
 pub(super) struct Sheet {
     xml: Xml,
     size: Point,
@@ -192,9 +210,7 @@ impl Sheet {
         let mut sheet = Sheet {
             xml,
             size: plan.size,
-            origin: [0.0; 2],
-            labels: Vec::new(),
-            symbols: Vec::new(),
+            ..Sheet::default()
         };
         let room = w - 2.0 * PAD;
         let title = cut(caption.title, 18.0, room);
@@ -205,17 +221,6 @@ impl Sheet {
             sheet.text("sub", 13.0, [PAD, y], Anchor::Start, &line);
         }
         sheet
-    }
-
-    /// An empty sheet without title or size, for a piece of a drawing.
-    pub(super) fn piece() -> Sheet {
-        Sheet {
-            xml: Xml::default(),
-            size: [0.0; 2],
-            origin: [0.0; 2],
-            labels: Vec::new(),
-            symbols: Vec::new(),
-        }
     }
 
     /// The elements of a piece.
@@ -306,13 +311,7 @@ impl Sheet {
         }
         self.labels.push(Label {
             text: text.to_owned(),
-            rect: Rect {
-                left,
-                top: at[1] - size / 2.0,
-                right: left + wide,
-                bottom: at[1] + size / 2.0,
-            }
-            .moved(self.origin),
+            rect: Rect::around([left + wide / 2.0, at[1]], wide, size).moved(self.origin),
         });
         let mut tag = self
             .xml
@@ -380,19 +379,16 @@ impl Sheet {
             .close();
     }
 
-    /// Finished pieces, moved.
-    pub(super) fn shapes(&mut self, shapes: &[Shape], by: Point) {
+    /// Finished pieces.
+    pub(super) fn shapes(&mut self, shapes: &[Shape]) {
         for shape in shapes {
             match shape {
                 Shape::Path {
                     class,
                     points,
                     closed,
-                } => {
-                    let moved: Vec<Point> = points.iter().map(|&p| add(p, by)).collect();
-                    self.path(class, &polyline(&moved, *closed));
-                }
-                Shape::Circle { at, radius, class } => self.circle(class, add(*at, by), *radius),
+                } => self.path(class, &polyline(points, *closed)),
+                Shape::Circle { at, radius, class } => self.circle(class, *at, *radius),
             }
         }
     }
@@ -402,6 +398,27 @@ impl Sheet {
         self.symbols.push(rect.moved(self.origin));
     }
 
+    /// Draws what stands in front of a row of the legend.
+    fn swatch(&mut self, swatch: &Swatch, at: Point) {
+        let (name, value) = match swatch {
+            Swatch::Tint(_, label) => ("data-contour-key", label.as_str()),
+            _ => ("data-key", ""),
+        };
+        self.group(name, value, at, |s| match swatch {
+            Swatch::Tint(redundant, label) => {
+                let class = format!("s s{}", redundant.min(&6));
+                s.rect(&class, &Rect::around([0.0; 2], 30.0, 16.0), 3.0);
+                s.text("small", SMALL, [0.0; 2], Anchor::Middle, label);
+            }
+            Swatch::Symbol(draw) => draw(s),
+            Swatch::Joint(class, label) => {
+                s.circle(class, [0.0; 2], 9.5);
+                s.text("class", 9.0, [0.0; 2], Anchor::Middle, label);
+            }
+            Swatch::Shapes(shapes) => s.shapes(shapes),
+        });
+    }
+
     /// Draws the legend and ends the sheet.
     pub(super) fn finish(mut self, caption: &Caption<'_>, plan: &SheetPlan) -> Drawing {
         let lines = caption.legend.len().div_ceil(plan.columns).max(1);
@@ -409,22 +426,7 @@ impl Sheet {
             let x = PAD + plan.column * (i / lines) as f64;
             let y = plan.legend_top + ROW * ((i % lines) as f64 + 0.5);
             let middle = [x + 15.0, y];
-            match swatch {
-                Swatch::Tint(redundant, label) => {
-                    let rect = Rect::around(middle, 30.0, 16.0);
-                    let class = format!("s s{}", redundant.min(&6));
-                    self.group("data-contour-key", label, [0.0; 2], |s| {
-                        s.rect(&class, &rect, 3.0);
-                        s.text("small", SMALL, middle, Anchor::Middle, label);
-                    });
-                }
-                Swatch::Symbol(draw) => draw(&mut self, middle),
-                Swatch::Joint(class, label) => {
-                    self.circle(class, middle, 9.5);
-                    self.text("class", 9.0, middle, Anchor::Middle, label);
-                }
-                Swatch::Shapes(shapes) => self.shapes(shapes, middle),
-            }
+            self.swatch(swatch, middle);
             let room = plan.column - SWATCH - 20.0;
             let shown = cut(text, TEXT, room.min(self.size[0] - x - SWATCH - PAD));
             self.text("legend", TEXT, [x + SWATCH, y], Anchor::Start, &shown);

@@ -1,19 +1,18 @@
 //! What is drawn: a mechanism in one state with its couplings, and what a redesign of it changed.
 
-use crate::draw::sheet::{SMALL, Shape, Sheet, Swatch};
-use crate::model::joint_type::Coupling;
+use crate::draw::sheet::{SMALL, Sheet, Swatch};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
 use crate::search::check::variant_mechanism;
 use crate::search::question::space::choice_name;
-use crate::svg::plane::{Point, add};
+use crate::svg::plane::Point;
 use crate::svg::text::width;
 use std::fmt::Write as _;
 
 /// The class of the style sheet that the lines of couplings have.
-const CLASS: &str = "fine dash";
+pub(super) const COUPLING: &str = "fine dash";
 
 /// What is to be drawn.
 #[derive(Debug, Clone)]
@@ -186,9 +185,7 @@ impl Subject<'_> {
             ));
         }
         for link in m.links.iter().skip(marks.links) {
-            let bar = Shape::line("bone new".to_owned(), vec![[-9.0, 0.0], [9.0, 0.0]]);
-            let text = format!("link {}: added", link.id);
-            out.push((Swatch::Shapes(vec![bar]), text));
+            out.push((Swatch::line("bone new"), format!("link {}: added", link.id)));
         }
         out
     }
@@ -200,15 +197,16 @@ impl Subject<'_> {
         place: impl Fn(JointId) -> Option<Point>,
     ) {
         for coupling in self.mechanism.couplings_in(self.state) {
-            draw_line(sheet, coupling, &place);
+            if let [Some(a), Some(b)] = coupling.ends.map(|e| place(e.joint)) {
+                sheet.line(COUPLING, a, b);
+            }
         }
     }
 
     /// The row of the legend, where there are couplings.
     pub(super) fn coupling_row(&self) -> Option<(Swatch, String)> {
         self.mechanism.couplings_in(self.state).next()?;
-        let draw = |s: &mut Sheet, p: Point| s.line(CLASS, add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
-        Some((Swatch::Symbol(draw), "coupled joints".to_owned()))
+        Some((Swatch::line(COUPLING), "coupled joints".to_owned()))
     }
 
     /// The couplings for those who do not see the drawing.
@@ -234,16 +232,4 @@ pub(super) fn roominess(m: &Mechanism, joints: &[JointId]) -> f64 {
         .map(|&j| width(&m.joints[j].id, SMALL).min(150.0));
     let usual = wide.sum::<f64>() / joints.len().max(1) as f64;
     1.0 + 0.5 * ((usual - 40.0) / 60.0).clamp(0.0, 1.0)
-}
-
-/// Draws the line of a coupling between joints that stand at `place`.
-pub(super) fn draw_line(
-    sheet: &mut Sheet,
-    coupling: &Coupling,
-    place: impl Fn(JointId) -> Option<Point>,
-) {
-    let [a, b] = coupling.ends.map(|e| place(e.joint));
-    if let (Some(a), Some(b)) = (a, b) {
-        sheet.line(CLASS, a, b);
-    }
 }

@@ -17,7 +17,8 @@ use std::collections::BTreeMap;
 
 const CARDS: &str = include_str!("catalogue.css");
 /// The script by idea, in the order it is run.
-const SCRIPT: [&str; 8] = [
+const SCRIPT: [&str; 9] = [
+    include_str!("script/element.js"),
     include_str!("script/gripper.js"),
     include_str!("script/pairs.js"),
     include_str!("script/hull.js"),

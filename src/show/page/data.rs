@@ -1,6 +1,7 @@
 //! What the script of a page knows, as JSON inside the page.
 
 use super::contents::Page;
+use super::symbols::places;
 use crate::format::plain::turns;
 use crate::model::mechanism::Joint;
 use crate::redundancy::analysis::{ContourShare, StateAnalysis};
@@ -12,9 +13,16 @@ pub(super) fn script(
     page: &Page<'_>,
     analysis: &Analysis<'_>,
     [search, ideas]: [Option<Value>; 2],
-    swaps: &Value,
 ) -> String {
     let m = page.mechanism;
+    // Variable, choice and joint of each swap of the scene of a state, in its order.
+    let swaps = |s| match &page.redesigns {
+        Ok(r) => places(m, r.found, s)
+            .iter()
+            .map(|(v, c, swap)| [*v, *c, swap.joint.index()])
+            .collect(),
+        Err(_) => Vec::new(),
+    };
     let contour = |c: &ContourShare| json!({ "name": c.contour.name(m), "redundant": c.redundant });
     let state = |s: &StateAnalysis| {
         json!({
@@ -46,7 +54,7 @@ pub(super) fn script(
         "joints": m.joints.iter().map(joint).collect::<Value>(),
         "search": search,
         "ideas": ideas,
-        "swaps": swaps,
+        "swaps": m.state_ids().map(swaps).collect::<Vec<_>>(),
         "variant_commands": page.commands.variant,
         "idea_commands": page.commands.idea,
         "longer": page.commands.longer,

@@ -3,13 +3,13 @@
 use super::moving::Moving;
 use super::{SHOWN, swaps};
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, Swap, kinematic_scene};
-use crate::model::mechanism::{Mechanism, Mode, StateId};
+use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::stress::SelfStress;
 use crate::score::outcome::Outcome;
 use crate::view::analysis::Analysis;
 
-/// The mechanism in space in each state. None of a plane mechanism where there is nothing of these.
+/// Returns the mechanism in space in each state, or `None` if its pose has no numbers.
 pub fn scenes(
     mechanism: &Mechanism,
     states: &[StateAnalysis],
@@ -17,20 +17,17 @@ pub fn scenes(
 ) -> Vec<Option<(Drawing, Scene)>> {
     let one = |(found, state): (&StateAnalysis, StateId)| {
         let m = found.meant.as_deref().unwrap_or(mechanism);
-        let still = !matches!(m.mode, Mode::Planar { .. });
         let swaps = search.map(|found| swaps(mechanism, found, state));
-        moving_scene(m, (found, state), &swaps.unwrap_or_default(), still)
+        moving_scene(m, (found, state), &swaps.unwrap_or_default())
     };
     states.iter().zip(mechanism.state_ids()).map(one).collect()
 }
 
-/// It in one state, with what redesigns put at its joints; none where nothing moves and nothing is strained, unless it is to be
-/// shown `still`.
+/// Returns it in one state, with what redesigns put at its joints; at rest if nothing moves.
 pub fn moving_scene(
     m: &Mechanism,
     of: (&StateAnalysis, StateId),
     swaps: &[Swap<'_>],
-    still: bool,
 ) -> Option<(Drawing, Scene)> {
     let (found, state) = of;
     let told = Analysis::new(m, std::slice::from_ref(found), &[]);
@@ -44,9 +41,6 @@ pub fn moving_scene(
     let stresses = stresses.filter(|(_, s)| known(s)).take(SHOWN);
     let stresses: Vec<_> = stresses.map(|(k, s)| (told.name(k), s)).collect();
     if moving.is_empty() {
-        if stresses.is_empty() && !still {
-            return None;
-        }
         moving.push(Moving::still(m, state).ok()?);
     }
     let moves: Vec<(String, Moved<'_>)> = moving

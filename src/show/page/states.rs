@@ -1,9 +1,10 @@
 //! A mechanism as it is, state by state: figures, drawings, contours and self-stresses.
 
-use super::symbols::Drawn;
-use super::verdict;
+use super::contents::Page;
+use super::{swaps, verdict};
+use crate::draw::{Subject, kinematic_with, scheme};
 use crate::format::plural;
-use crate::model::mechanism::{Mechanism, Mode};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::redundancy::analysis::{ContourShare, External};
 use crate::redundancy::stress::SelfStress;
 use crate::view::analysis::text::{formula, in_any_basis, in_any_order};
@@ -30,28 +31,42 @@ pub(super) fn facts(m: &Mechanism, analysis: &Analysis<'_>) -> String {
     .join(" · ")
 }
 
-pub(super) fn html(analysis: &Analysis<'_>, drawn: &[Drawn<'_>]) -> Markup {
+pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
     let several = analysis.states.len() > 1;
     html! {
-        @for (i, (s, d)) in analysis.states.iter().zip(drawn).enumerate() {
+        @for (i, (s, id)) in analysis.states.iter().zip(page.mechanism.state_ids()).enumerate() {
             @if several {
                 h3 id={ "state-" (i) } { "State " (s.found.state) ": " (verdict::head(s).to_lowercase()) }
             }
             (figures(s))
-            div.drawings {
-                (drawing(i, s, "scheme", "Structural scheme", &d.scheme.svg))
-                (drawing(i, s, "kinematic", "Kinematic scheme", &d.kinematic.svg))
-            }
+            (drawings(page, s, id))
             (contours(s))
         }
     }
 }
 
-fn drawing(i: usize, s: &State<'_>, kind: &str, name: &str, svg: &str) -> Markup {
+/// The two schemes; the kinematic one has room for what redesigns put at its joints.
+fn drawings(page: &Page<'_>, s: &State<'_>, state: StateId) -> Markup {
+    let subject = Subject {
+        mechanism: page.mechanism,
+        state,
+        analysis: Some(s.found),
+        marks: None,
+    };
+    let redesigns = page.redesigns.as_ref().ok();
+    let swaps = redesigns.map(|r| swaps(page.mechanism, r.found, state));
+    let kinematic = kinematic_with(&subject, &swaps.unwrap_or_default());
     html! {
-        figure.drawing data-state=(i) data-kind=(kind) tabindex="0" role="group"
-            aria-label={ (name) ", state " (s.found.state) } {
-            "\n" (PreEscaped(svg))
+        div.drawings {
+            @for (kind, name, drawn) in [
+                ("scheme", "Structural scheme", scheme(&subject)),
+                ("kinematic", "Kinematic scheme", kinematic),
+            ] {
+                figure.drawing data-state=(state.index()) data-kind=(kind) tabindex="0" role="group"
+                    aria-label={ (name) ", state " (s.found.state) } {
+                    "\n" (PreEscaped(drawn.svg))
+                }
+            }
         }
     }
 }

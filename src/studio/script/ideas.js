@@ -1,29 +1,21 @@
 // What to change: counts, and the ten best ideas; one under the pointer is marked on the drawing, a click takes it.
 
-/** 25,761,436 for what outgrows a number. */
-const inThrees = (digits) => String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ",");
-
-/** The changes in a line, joints with the same change together. */
-function changesInWords(changes) {
-  const by = new Map();
-  for (const c of changes) by.set(c.to, [...(by.get(c.to) ?? []), c.joint]);
-  return [...by].map(([to, joints]) => `${joints.join(", ")} → ${to}`).join("; ") || "nothing to change";
-}
+const changeLine = ({ changes }) => changesInWords(changes.map((c) => [c.joint, c.to])) || "nothing to change";
 
 async function takeIdea(n) {
   const { revision } = desk.ideas;
   const idea = desk.ideas.found.variants[n];
   pointedAt.idea = null;
   const done = await inTurn("take", { idea: idea.position, revision });
-  if (done) say(`Idea ${idea.position} is taken: ${changesInWords(idea.changes)}. Undo brings back what was.`);
+  if (done) say(`Idea ${idea.position} is taken: ${changeLine(idea)}. Undo brings back what was.`);
 }
 
 function ideaRow(v, n) {
-  const stands = v.idea ? `represents ${v.idea.exact ? "" : "at least "}${inThrees(v.idea.variants)}` : "";
+  const stands = v.idea ? `represents ${v.idea.exact ? "" : "at least "}${grouped(v.idea.variants)}` : "";
   const figures = `cost ${v.cost} · W = ${v.mobility} · σ = ${v.redundant}${stands ? ` · ${stands}` : ""}`;
   const none = v.changes.length === 0;
   const row = element("button", { type: "button", class: "idea", disabled: none ? "" : null, title: none ? null : "Take this idea: the file is changed, undo brings it back" },
-    element("span", { class: "idea-words" }, ...unbroken(changesInWords(v.changes))), element("small", {}, figures));
+    element("span", { class: "idea-words" }, ...unbroken(changeLine(v))), element("small", {}, figures));
   return element("li", {}, pointer(row, looked("idea", n), looked("idea", null), () => takeIdea(n)));
 }
 
@@ -68,7 +60,7 @@ function showIdeas() {
   if (found.space === "1" && !value.wider.length) return part(...asked, element("p", { class: "help" }, "No joint has a choice, so there is nothing to search: tick joint types under “Search options”."));
   const left = searchOf().max_redundant;
   const goal = left ? `σ ≤ ${left}` : "σ = 0";
-  const counts = `${found.exact ? "" : "at least "}${inThrees(found.lasting ?? found.admissible)} of ${inThrees(found.space)} variants ${value.asked ? "are found" : `have ${goal} and keep the motion of outputs and drives`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
+  const counts = `${found.exact ? "" : "at least "}${grouped(found.lasting ?? found.admissible)} of ${grouped(found.space)} variants ${value.asked ? "are found" : `have ${goal} and keep the motion of outputs and drives`} ${found.lasting === null ? "in the drawn pose" : "throughout the motion"}.`;
   const stopped = found.stop === "interrupted" || (desk.stoppedAt === value.revision && !found.exact) ? ["The search was stopped: these are the ideas found until then."] : [];
   const all = found.variants.map(ideaRow);
   const none = found.variants.length ? [] : nothingFound(value);

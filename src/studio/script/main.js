@@ -45,9 +45,7 @@ async function exportAs(format) {
   const answer = await fetch(`export/${format}`);
   if (!answer.ok) return say((await answer.json()).refused, true);
   const name = /filename="([^"]*)"/.exec(answer.headers.get("content-disposition") ?? "")?.[1] ?? "mechanism";
-  const link = element("a", { download: name, href: URL.createObjectURL(await answer.blob()) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  saveFile(name, await answer.blob());
   return say(`${name} is with the browser's downloads.`);
 }
 

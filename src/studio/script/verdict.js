@@ -111,7 +111,7 @@ function stopSearch({ target }) {
 function showWork() {
   const { look, verdict, motion, ideas, progress: p, revision } = desk;
   const judged = verdict?.revision === revision;
-  const searched = p?.nodes !== undefined ? `Searching: joint ${p.done} of ${p.of}, ${inThrees(p.nodes)} nodes` : p?.of ? `Ranking: branch ${p.done} of ${p.of}` : p ? "Listing the ideas" : "Searching";
+  const searched = p?.nodes !== undefined ? `Searching: joint ${p.done} of ${p.of}, ${grouped(p.nodes)} nodes` : p?.of ? `Ranking: branch ${p.done} of ${p.of}` : p ? "Listing the ideas" : "Searching";
   const stages = {
     judge: !judged && (look?.whole || look?.partly) ? "Judging the mechanism" : null,
     motion: judged && verdict.analysis && motion?.revision !== revision ? "Computing the motion" : null,

@@ -1,6 +1,6 @@
 //! Drawings of motion: links stay rigid, what is published of a motion is seen, and readers can have it stand still.
 
-use super::reading::covers;
+use super::reading::{covers, moved};
 use crate::common::*;
 
 type Point = [f64; 2];
@@ -31,7 +31,8 @@ fn frames(args: &[&str]) -> Frames {
         .collect();
     let joints = groups.iter().map(|g| {
         let used = g.children().filter(|c| c.has_tag_name("use"));
-        let place = |c: roxmltree::Node<'_, '_>| [number(c, "x"), number(c, "y")];
+        let [dx, dy] = moved(*g);
+        let place = |c: roxmltree::Node<'_, '_>| [number(c, "x") + dx, number(c, "y") + dy];
         used.map(|c| (c.attribute("data-joint").unwrap().to_owned(), place(c)))
             .collect()
     });

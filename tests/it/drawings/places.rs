@@ -1,7 +1,7 @@
 //! Kinematic schemes are true: joints of one place stand in one place, links join the places of their joints, and what is in
 //! different places does not overlap.
 
-use super::reading::covers;
+use super::reading::{covers, moved};
 use crate::common::*;
 use ozols::draw::{Drawing, Sight, Subject, kinematic, kinematic_seen};
 
@@ -56,12 +56,7 @@ pub(super) fn shown(d: &Drawing) -> Shown {
         doc.descendants()
             .filter_map(move |n| Some((n, n.attribute(name)?.to_owned())))
     };
-    let joints = groups("data-joint").map(|(n, id)| {
-        let by = n.attribute("transform").unwrap();
-        let by = by.strip_prefix("translate(").unwrap();
-        let (x, y) = by.strip_suffix(')').unwrap().split_once(' ').unwrap();
-        (id, [x.parse().unwrap(), y.parse().unwrap()])
-    });
+    let joints = groups("data-joint").map(|(n, id)| (id, moved(n)));
     let filled = |n: &roxmltree::Node<'_, '_>| {
         let class = n.attribute("class").unwrap_or_default();
         ["joint", "ink"]

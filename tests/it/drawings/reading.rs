@@ -5,7 +5,7 @@ use ozols::draw::{Drawing, Rect};
 use ozols::redundancy::analysis::StateAnalysis;
 
 /// How far the groups round an element move it.
-fn moved(n: roxmltree::Node<'_, '_>) -> [f64; 2] {
+pub(super) fn moved(n: roxmltree::Node<'_, '_>) -> [f64; 2] {
     let mut by = [0.0; 2];
     for text in n.ancestors().filter_map(|a| a.attribute("transform")) {
         let numbers = text.strip_prefix("translate(").unwrap();

@@ -1,5 +1,6 @@
 //! The mechanism in space on the report page: its first view is the drawing it lies on, and its poses keep joints together.
 
+use super::reading::moved;
 use crate::common::*;
 type Vector = [f64; 3];
 
@@ -41,17 +42,14 @@ fn page(name: &str) -> (String, Value) {
 fn the_first_view_is_the_drawing() {
     for name in ["bennett", "gripper-10", "rssr", "scissor-lift", "3-rps"] {
         let (page, scene) = page(name);
-        let (_, figure) = page.split_once("data-scene").unwrap();
-        let figure = figure.split_once("</svg>").unwrap().0;
-        let mut drawn: Vec<[f64; 2]> = figure
-            .split("data-joint=\"")
-            .skip(1)
-            .map(|g| {
-                let (_, at) = g.split_once("translate(").unwrap();
-                let (x, y) = at.split_once(')').unwrap().0.split_once(' ').unwrap();
-                [x.parse().unwrap(), y.parse().unwrap()]
-            })
-            .collect();
+        let (before, _) = page.split_once("data-scene").unwrap();
+        let figure = &page[before.rfind("<svg").unwrap()..];
+        let figure = &figure[..figure.find("</svg>").unwrap() + "</svg>".len()];
+        let figure = roxmltree::Document::parse(figure).unwrap();
+        let joints = figure
+            .descendants()
+            .filter(|n| n.has_attribute("data-joint"));
+        let mut drawn: Vec<[f64; 2]> = joints.map(moved).collect();
         let [right, up] = [0, 1].map(|i| vector(&scene["view"][i]));
         let first = &scene["moves"][0];
         let pose = &first["poses"][first["start"].whole() as usize];

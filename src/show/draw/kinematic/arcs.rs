@@ -2,7 +2,6 @@
 //! made and as they pass each other, and bars that bow out round what stands in their way.
 
 use super::Kinematic;
-use super::body::Body;
 use crate::draw::place::projection::places::meet;
 use crate::draw::place::projection::{Vector, add, cross, dot, norm, scale as times, sub};
 use crate::geom::vector::unit;
@@ -72,15 +71,5 @@ impl Kinematic<'_> {
             add(centre, times(out, near + t * (far - near)))
         };
         Some((0..=PIECES).map(at).collect())
-    }
-
-    /// The arc of a link on paper, where a pose has carried it.
-    pub(super) fn arc(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Option<Body> {
-        let points = self.arc_in_space(row)?;
-        let flat = points.into_iter().map(|p| self.projection.flat(carried(p)));
-        Some(Body {
-            points: flat.collect::<Vec<Point>>(),
-            plate: false,
-        })
     }
 }

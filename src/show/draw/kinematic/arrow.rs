@@ -42,7 +42,7 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
         let arc: Vec<Point> = (0..=24).map(on).collect();
         let back = unit(sub(arc[22], arc[24]));
         let head = head(arc[24], back, (0.8 * radius).min(HEAD), class);
-        return vec![Shape::line(class.to_owned(), arc), head];
+        return vec![Shape::line(class, arc), head];
     }
     if toward.abs() > END_ON * length {
         // the point of an arrow that comes, the feathers of one that goes
@@ -51,13 +51,9 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
             let angle = TAU * f64::from(i) / 24.0;
             add(at, [r * angle.cos(), r * angle.sin()])
         });
-        let line = |points: Vec<Point>| Shape::line(class.to_owned(), points);
+        let line = |points: Vec<Point>| Shape::line(class, points);
         let inside = if toward > 0.0 {
-            vec![Shape::Circle {
-                at,
-                radius: 0.3 * r,
-                class: format!("{class} head"),
-            }]
+            vec![Shape::circle(format!("{class} head"), at, 0.3 * r)]
         } else {
             [-1.0, 1.0]
                 .map(|s| line(vec![add(at, [-d, -s * d]), add(at, [d, s * d])]))
@@ -68,7 +64,7 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
     let tip = add(at, to);
     let back = scale(unit(to), -1.0);
     let size = (0.6 * norm(to)).min(HEAD);
-    let mut out = vec![Shape::line(class.to_owned(), vec![at, tip])];
+    let mut out = vec![Shape::line(class, vec![at, tip])];
     out.push(head(tip, back, size, class));
     if arrow.turns {
         out.push(head(add(tip, scale(back, 0.8 * size)), back, size, class));
@@ -79,9 +75,6 @@ pub(super) fn shapes(at: Point, arrow: &Arrow, view: &View) -> Vec<Shape> {
 fn head(tip: Point, back: Point, size: f64, class: &str) -> Shape {
     let side = scale([-back[1], back[0]], 0.4 * size);
     let foot = add(tip, scale(back, size));
-    Shape::Path {
-        class: format!("{class} head"),
-        points: vec![tip, add(foot, side), sub(foot, side)],
-        closed: true,
-    }
+    let corners = vec![tip, add(foot, side), sub(foot, side)];
+    Shape::path(format!("{class} head"), corners, true)
 }

@@ -2,8 +2,8 @@
 
 use super::Kinematic;
 use crate::draw::place::projection;
-use crate::draw::sheet::labels::{self, Wish};
 use crate::draw::sheet::{Anchor, PAD, Sheet};
+use crate::svg::labels::{self, Wish};
 use crate::svg::plane::{Rect, add, norm, scale};
 
 impl Kinematic<'_> {

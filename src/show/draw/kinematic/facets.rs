@@ -1,12 +1,10 @@
 //! Plates of folds as the facets that their creases bound.
 
 use super::Kinematic;
-use super::body::Body;
 use crate::draw::place::projection::{
     JointInSpace, Vector, add, cross, dot, norm, scale as times, sub,
 };
 use crate::model::joint_type::JointType;
-use crate::svg::plane::Point;
 
 /// Creases that pass each other by more than this share of a plate's size do not meet.
 const MEET: f64 = 1e-4;
@@ -28,13 +26,6 @@ impl Kinematic<'_> {
         } else {
             vec![None; self.links.len()]
         }
-    }
-
-    /// The facet of a link on paper, where a pose has carried it.
-    pub(super) fn facet(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Option<Body> {
-        let corners = self.facets.get(row)?.as_ref()?;
-        let flat = corners.iter().map(|&p| self.projection.flat(carried(p)));
-        Some(Body::new(&flat.collect::<Vec<Point>>()))
     }
 
     fn facet_in_space(&self, row: usize) -> Option<Vec<Vector>> {

@@ -1,13 +1,11 @@
 //! What a kinematic scheme says in words: the rows of its legend, and itself for those who do not see it.
 
 use super::{Kinematic, Spot};
-use crate::draw::sheet::{Sheet, Swatch};
+use crate::draw::sheet::{Shape, Sheet, Swatch};
 use crate::draw::symbol::drive;
 use crate::draw::symbol::ground::Ground;
-use crate::draw::symbol::symbols;
 use crate::format::decimals;
 use crate::model::joint_type::JointType;
-use crate::svg::plane::{Point, add, polyline};
 use std::fmt::Write as _;
 
 impl Kinematic<'_> {
@@ -15,41 +13,36 @@ impl Kinematic<'_> {
         let m = self.subject.mechanism;
         let mut out = self.joint_type_rows();
         if self.spots.iter().any(|s| s.symbol.ring.is_some()) {
-            let draw = |s: &mut Sheet, p: Point| s.shapes(&drive::round("", 9.5), p);
-            out.push((Swatch::Symbol(draw), "driving pair".to_owned()));
+            let arrow = Swatch::Shapes(drive::round("", 9.5));
+            out.push((arrow, "driving pair".to_owned()));
         }
         if self.spots.iter().any(|s| s.symbol.slide.is_some()) {
-            let draw = |s: &mut Sheet, p: Point| {
-                s.line("line", add(p, [-11.0, 0.0]), add(p, [5.0, 0.0]));
-                let head = [[11.0, 0.0], [4.0, 3.0], [4.0, -3.0]].map(|c| add(p, c));
-                s.path("ink", &polyline(&head, true));
-            };
-            out.push((Swatch::Symbol(draw), "driven slide".to_owned()));
+            let arrow = vec![
+                Shape::line("line", vec![[-11.0, 0.0], [5.0, 0.0]]),
+                Shape::path("ink", vec![[11.0, 0.0], [4.0, 3.0], [4.0, -3.0]], true),
+            ];
+            out.push((Swatch::Shapes(arrow), "driven slide".to_owned()));
         }
         if !self.grounds.is_empty() {
-            let draw = |s: &mut Sheet, p: Point| {
-                Ground::pivot(add(p, [0.0, -7.0]), add(p, [0.0, -1.0])).draw(s);
-            };
+            let draw = |s: &mut Sheet| Ground::pivot([0.0, -7.0], [0.0, -1.0]).draw(s);
             out.push((Swatch::Symbol(draw), m.frame_words()));
         }
         if self.spots.iter().any(|s| self.subject.only_here(s.joint)) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("fine dash", p, 9.5);
+            let ring = Shape::circle("fine dash", [0.0; 2], 9.5);
             let state = &m.states[self.subject.state];
-            out.push((Swatch::Symbol(draw), format!("in state {state} only")));
+            out.push((Swatch::Shapes(vec![ring]), format!("in state {state} only")));
         }
         if self.links.iter().any(|(l, _)| self.is_output(*l)) {
-            let draw = |s: &mut Sheet, p: Point| {
-                s.line("bone out", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
-            };
-            out.push((Swatch::Symbol(draw), "output link".to_owned()));
+            out.push((Swatch::line("bone out"), "output link".to_owned()));
         }
         out.extend(self.point_rows());
-        let circles = self.circles();
-        if circles.iter().any(|c| !c.is_empty()) {
-            let draw = |s: &mut Sheet, p: Point| s.circle("fine pitch", p, 9.0);
-            out.push((Swatch::Symbol(draw), "pitch circle of a gear".to_owned()));
+        let mut couplings = m.couplings_in(self.subject.state);
+        if couplings.any(|c| !self.pitch_circles(c, &self.places).is_empty()) {
+            let circle = Shape::circle("fine pitch", [0.0; 2], 9.0);
+            let text = "pitch circle of a gear".to_owned();
+            out.push((Swatch::Shapes(vec![circle]), text));
         }
-        if circles.iter().any(Vec::is_empty) {
+        if !self.coupling_lines().is_empty() {
             out.extend(self.subject.coupling_row());
         }
         out.extend(self.arrow_rows(&self.arrows));
@@ -69,7 +62,7 @@ impl Kinematic<'_> {
             }
         }
         let row = |(t, s): (&JointType, &Spot)| {
-            let shapes = symbols::fitted(&s.symbol.plain());
+            let shapes = s.symbol.small();
             (Swatch::Shapes(shapes), format!("{t}, class {}", t.class()))
         };
         types.into_iter().map(row).collect()
@@ -81,9 +74,8 @@ impl Kinematic<'_> {
         let moved = moved.then_some("joints that meet in a point stand farther along their axes");
         let bowed = self.bows.iter().any(|&b| b != 0.0);
         let bowed = bowed.then_some("a straight bar bows where it would lie on another");
-        let none = |_: &mut Sheet, _: Point| {};
         let texts = moved.into_iter().chain(bowed);
-        texts.map(move |text| (Swatch::Symbol(none), text.to_owned()))
+        texts.map(|text| (Swatch::Shapes(Vec::new()), text.to_owned()))
     }
 
     /// The drawing in words, for those who do not see it.

@@ -2,12 +2,12 @@
 
 use super::Kinematic;
 use super::arrow::{Arrow, shapes};
+use crate::draw::place::projection::sub as sub3;
 use crate::draw::place::projection::{Vector, add as add3, along_z, norm as norm3, scale as times};
-use crate::draw::place::projection::{bounds, sub as sub3};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
 use crate::format::decimals;
 use crate::redundancy::stress::SelfStress;
-use crate::svg::plane::{Point, Rect};
+use crate::svg::plane::{Point, Rect, bounds};
 
 /// The length of the greatest arrow, in pixels.
 const LONGEST: f64 = 60.0;
@@ -83,12 +83,12 @@ impl Kinematic<'_> {
         (!points.is_empty()).then(|| bounds(&points).grown(3.0))
     }
 
-    pub(super) fn draw_arrows(&self, sheet: &mut Sheet, by: Point) {
+    pub(super) fn draw_arrows(&self, sheet: &mut Sheet) {
         for arrow in &self.arrows {
             let id = &self.subject.mechanism.links[self.links[arrow.link].0].id;
             sheet.group("data-load", id, [0.0; 2], |s| {
                 s.tip(&arrow.tip);
-                s.shapes(&self.arrow_shapes(arrow), by);
+                s.shapes(&self.arrow_shapes(arrow));
             });
         }
     }

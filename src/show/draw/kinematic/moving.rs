@@ -3,17 +3,18 @@
 pub(in crate::draw::kinematic) mod frame;
 pub(in crate::draw::kinematic) mod sliding;
 
-use super::{Kinematic, STRIP};
+use super::{Kinematic, Spot, Words};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::place::projection::JointInSpace;
 use crate::draw::place::projection::Sight;
-use crate::draw::place::projection::{JointInSpace, bounds};
-use crate::draw::sheet::{Caption, Drawing, Sheet, SheetPlan, Swatch, plan};
+use crate::draw::sheet::{Drawing, Shape, Sheet, Swatch};
 use crate::draw::subject::Subject;
 use crate::draw::symbol::placed::Symbol;
+use crate::model::joint_type::JointType;
 use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
-use crate::svg::plane::{Point, Rect, add};
+use crate::svg::plane::{Rect, bounds};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -73,7 +74,8 @@ impl<'a> Moving<'a> {
     fn new(mut rest: Kinematic<'a>, moved: &Moved<'a>) -> Moving<'a> {
         let poses = poses(moved);
         let lines = rest.moving_lines(&poses);
-        let frames: Vec<MovingPicture> = poses.iter().map(|c| rest.frame(c, &lines)).collect();
+        let frames = poses.iter().map(|c| rest.picture(Some(c), &lines));
+        let frames: Vec<MovingPicture> = frames.collect();
         rest.traces = (rest.ways(&poses), moved.way.closed);
         Moving {
             frames,
@@ -84,32 +86,24 @@ impl<'a> Moving<'a> {
         }
     }
 
-    fn draw(mut self) -> Drawing {
+    fn draw(self) -> Drawing {
         let rest = &self.rest;
-        let area = rest.room_of(&self.frames, self.start);
-        let title = rest.subject.title();
-        let [what, _] = rest.subject.subtitle(&rest.what());
         let mut legend = rest.legend();
         legend.extend(flag_row(&self.frames[self.start]));
-        let caption = Caption {
-            title: &title,
-            subtitle: [&what, self.words],
-            description: &format!("{} Moving: {}.", rest.description(), self.words),
+        let words = Words {
+            shows: Some(self.words.to_owned()),
+            more: format!(" Moving: {}.", self.words),
             legend,
         };
-        let plan = plan(&caption, area, STRIP);
-        let by = plan.shift;
-        for p in self.frames.iter_mut().flat_map(MovingPicture::all) {
-            *p = add(*p, by);
-        }
-        self.rest.shift_ground(by);
-        let mut sheet = Sheet::new(&caption, &plan);
-        sheet.style(&self.style());
-        self.rest.draw_traces(&mut sheet);
-        self.rest.draw_ground(&mut sheet);
-        self.draw_frames(&mut sheet);
-        self.rest.draw_below(&mut sheet, &plan);
-        sheet.finish(&caption, &plan)
+        let area = rest.room_of(&self.frames, self.start);
+        rest.on_sheet(area, words, |sheet, by| {
+            sheet.style(&self.style());
+            sheet.group("data-drawing", "", by, |s| {
+                rest.draw_traces(s);
+                rest.draw_ground(s);
+                self.draw_frames(s);
+            });
+        })
     }
 
     /// The symbols once each, and the pictures made of them.
@@ -122,10 +116,10 @@ impl<'a> Moving<'a> {
         for f in &self.frames {
             let of = rest.spots.iter().zip(&f.places).enumerate();
             let of = of.map(|(i, (spot, place))| {
+                let of = &m.joints[spot.joint].joint_type;
+                let mut piece = Sheet::default();
                 let mark = rest.subject.joint_mark(spot.joint);
-                let mut piece = Sheet::piece();
-                let symbol = rest.symbol_in(i, place);
-                symbol.draw(&mut piece, rest.subject, spot.joint, mark);
+                rest.symbol_of(i, of, place).draw(&mut piece, mark);
                 let next = store.len();
                 *store.entry(piece.into_text()).or_insert(next)
             });
@@ -139,7 +133,7 @@ impl<'a> Moving<'a> {
         }
         for (n, (f, used)) in self.frames.iter().zip(&used).enumerate() {
             sheet.frame(n, n == self.start, |s| {
-                f.draw(rest, s);
+                rest.draw_picture(s, f, false);
                 for &i in &order {
                     let id = &m.joints[rest.spots[i].joint].id;
                     s.joint_use(id, &format!("m{}", used[i]), f.at[i]);
@@ -176,11 +170,11 @@ impl<'a> Moving<'a> {
 
 /// What the legend says of flags, where there are any.
 pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
-    let draw = |s: &mut Sheet, p: Point| s.line("flag", p, add(p, [7.0, -7.0]));
     let there = frame.lines.iter().any(|(class, _)| *class == "flag");
     there.then(|| {
+        let flag = Shape::line("flag", vec![[0.0; 2], [7.0, -7.0]]);
         let text = "flag on a link that turns in its place";
-        (Swatch::Symbol(draw), text.to_owned())
+        (Swatch::Shapes(vec![flag]), text.to_owned())
     })
 }
 
@@ -221,14 +215,6 @@ impl Kinematic<'_> {
         area
     }
 
-    /// Moves what does not move with a pose to its place on the sheet.
-    pub(super) fn shift_ground(&mut self, by: Point) {
-        for g in &mut self.grounds {
-            (g.from, g.to) = (add(g.from, by), add(g.to, by));
-        }
-        self.shift_points(by);
-    }
-
     pub(super) fn draw_ground(&self, sheet: &mut Sheet) {
         for g in &self.grounds {
             sheet.symbol(g.rect());
@@ -236,27 +222,19 @@ impl Kinematic<'_> {
         }
     }
 
-    /// The axes and the scale.
-    pub(super) fn draw_below(&self, sheet: &mut Sheet, plan: &SheetPlan) {
-        self.draw_axes(sheet, plan.legend_top - STRIP + 34.0);
-        self.draw_scale(sheet, plan.legend_top - STRIP + 40.0);
-    }
-
-    /// The symbol of a joint that stands at another place.
-    pub(super) fn symbol_in(&self, i: usize, place: &JointInSpace) -> Symbol {
-        let spot = &self.spots[i];
-        let of = &self.subject.mechanism.joints[spot.joint].joint_type;
-        let (view, size) = (&self.projection.view, spot.symbol.size);
-        let symbol = Symbol::new(
+    /// The symbol of a type in place of that of a joint.
+    pub(super) fn symbol_of(&self, i: usize, of: &JointType, place: &JointInSpace) -> Symbol {
+        let Spot { joint, symbol, .. } = &self.spots[i];
+        let view = &self.projection.view;
+        Symbol::new(
             self.subject,
-            spot.joint,
+            *joint,
             of,
             place,
             view,
-            size,
-            spot.symbol.slide,
-        );
-        symbol.marked(self.subject.joint_mark(spot.joint))
+            symbol.size,
+            symbol.slide,
+        )
     }
 
     /// The joints, those first that others are drawn within.

@@ -1,9 +1,10 @@
 //! Where the names of joints and links go.
 
+use super::moving::frame::MovingPicture;
 use super::{Kinematic, LabelText, Spot};
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::draw::symbol::ground::Ground;
+use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{names, width};
 
@@ -20,11 +21,14 @@ fn small(class: String, text: String, anchor: Point, clear: f64) -> (Wish, Label
 
 impl Kinematic<'_> {
     /// Where the ids of joints, links and points of interest go, in this order, and what is written there.
-    pub(super) fn place_labels(&self) -> (Vec<labels::LabelPlace>, Vec<LabelText>) {
+    pub(super) fn place_labels(
+        &self,
+        rest: &MovingPicture,
+    ) -> (Vec<labels::LabelPlace>, Vec<LabelText>) {
         let mut taken: Vec<Rect> = self.spots.iter().map(|s| s.rect).collect();
         taken.extend(self.grounds.iter().map(Ground::rect));
         taken.extend(self.points.iter().map(|p| Rect::around(p.at, 9.0, 9.0)));
-        let lines = self.drawn_lines().into_iter().map(|ends| AvoidedLine {
+        let lines = self.drawn_lines(rest).into_iter().map(|ends| AvoidedLine {
             ends,
             weight: CROSSED,
         });
@@ -35,16 +39,12 @@ impl Kinematic<'_> {
     }
 
     /// The segments of all that is drawn, which no label may lie on.
-    fn drawn_lines(&self) -> Vec<(Point, Point)> {
-        let mut lines = Vec::new();
-        for (n, (l, _)) in self.links.iter().enumerate() {
-            if !self.is_frame(*l) {
-                lines.extend(self.body(n).lines());
-            }
-        }
+    fn drawn_lines(&self, rest: &MovingPicture) -> Vec<(Point, Point)> {
+        let bodies = rest.bodies.iter();
+        let mut lines: Vec<_> = bodies.flat_map(|(_, body)| body.lines()).collect();
         lines.extend(self.grounds.iter().filter_map(Ground::stem));
         lines.extend(self.coupling_lines());
-        for c in self.circles().iter().flatten() {
+        for c in &rest.circles {
             lines.extend((0..c.len()).map(|i| (c[i], c[(i + 1) % c.len()])));
         }
         for way in &self.traces.0 {

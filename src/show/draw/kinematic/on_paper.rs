@@ -146,7 +146,7 @@ fn spots(
             joint,
             at,
             rect: symbol.room.moved(at),
-            symbol: symbol.marked(subject.joint_mark(joint)),
+            symbol,
         }
     });
     spots.collect()

@@ -7,7 +7,7 @@ use crate::draw::place::projection::{Vector, add as add3, scale as times};
 use crate::draw::sheet::{Sheet, Swatch};
 use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, add, polyline, sub};
+use crate::svg::plane::{Point, polyline, sub};
 
 impl Kinematic<'_> {
     /// The points of a link.
@@ -20,13 +20,6 @@ impl Kinematic<'_> {
         self.traces.0.iter().flatten().copied()
     }
 
-    pub(super) fn shift_points(&mut self, by: Point) {
-        let ways = self.traces.0.iter_mut().flatten();
-        for p in self.points.iter_mut().map(|p| &mut p.at).chain(ways) {
-            *p = add(*p, by);
-        }
-    }
-
     pub(super) fn draw_traces(&self, sheet: &mut Sheet) {
         let (ways, closed) = &self.traces;
         for way in ways {
@@ -34,30 +27,21 @@ impl Kinematic<'_> {
         }
     }
 
-    pub(super) fn draw_points(&self, sheet: &mut Sheet) {
-        for p in &self.points {
-            sheet.group("data-point", &p.id, [0.0; 2], |s| draw_mark(s, p.at));
-        }
-    }
-
     /// What the legend says of points and ways.
     pub(super) fn point_rows(&self) -> Vec<(Swatch, String)> {
         let mut out = Vec::new();
         if !self.points.is_empty() {
-            out.push((
-                Swatch::Symbol(draw_mark),
-                "point of interest, or face of a jaw".to_owned(),
-            ));
+            let mark = |s: &mut Sheet| draw_mark(s, [0.0; 2]);
+            let text = "point of interest, or face of a jaw".to_owned();
+            out.push((Swatch::Symbol(mark), text));
         }
         if !self.traces.0.is_empty() {
-            let draw =
-                |s: &mut Sheet, p: Point| s.line("trace", add(p, [-9.0, 0.0]), add(p, [9.0, 0.0]));
             let of = if self.points.is_empty() {
                 "way of a point of the output"
             } else {
                 "way of a point"
             };
-            out.push((Swatch::Symbol(draw), of.to_owned()));
+            out.push((Swatch::line("trace"), of.to_owned()));
         }
         out
     }

@@ -5,16 +5,16 @@
 pub(in crate::draw::kinematic) mod part;
 mod standing;
 
-use super::Kinematic;
 use super::arrow::Arrow;
 use super::moving::{Moved, flag_row, poses};
+use super::{Kinematic, Words};
 use crate::draw::kinematic::moving::frame::MovingPicture;
 use crate::draw::kinematic::moving::sliding::Carried;
-use crate::draw::kinematic::scene::part::tidy;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};
-use crate::draw::sheet::{Caption, Drawing, Sheet, Swatch, plan};
+use crate::draw::sheet::{Drawing, Swatch};
 use crate::draw::subject::Subject;
+use crate::draw::symbol::pieces::{Piece, tidy};
 use crate::draw::symbol::placed::Swap;
 use crate::model::mechanism::LinkId;
 use crate::motion::drive_range::Way;
@@ -43,7 +43,7 @@ pub struct Scene {
     /// The link that rests.
     frame: usize,
     /// The pieces of each symbol.
-    symbols: Vec<Vec<Value>>,
+    symbols: Vec<Vec<Piece>>,
     /// Symbols at their places.
     joints: Vec<Value>,
     couplings: Vec<Value>,
@@ -77,7 +77,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     let mut frames = Vec::new();
     for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
-        frames.extend(poses.iter().map(|c| rest.frame(c, &lines)));
+        frames.extend(poses.iter().map(|c| rest.picture(Some(c), &lines)));
         for line in &lines {
             let row = rest.row(line.link);
             scene.wire(&rest, row, line.class, "line", &line.ends, Some(n));
@@ -103,7 +103,7 @@ pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -
     legend.extend(frames.iter().find_map(flag_row));
     legend.extend(rest.arrow_rows(&arrows));
     let first = frames.swap_remove(start);
-    let drawing = rest.draw_scene(&mut scene, first, area, legend);
+    let drawing = rest.draw_scene(&mut scene, &first, area, legend);
     (drawing, scene)
 }
 
@@ -155,7 +155,7 @@ impl Scene {
     }
 
     /// The number of a symbol of some pieces.
-    pub(super) fn symbol(&mut self, parts: Vec<Value>) -> usize {
+    pub(super) fn symbol(&mut self, parts: Vec<Piece>) -> usize {
         let known = self.symbols.iter().position(|s| *s == parts);
         known.unwrap_or_else(|| {
             self.symbols.push(parts);
@@ -194,57 +194,26 @@ impl Kinematic<'_> {
 
     /// A picture of a scene in groups, which learns where on the sheet it is.
     fn draw_scene(
-        &mut self,
+        &self,
         scene: &mut Scene,
-        mut picture: MovingPicture,
+        picture: &MovingPicture,
         area: Rect,
         legend: Vec<(Swatch, String)>,
     ) -> Drawing {
-        let title = self.subject.title();
-        let subtitle = self.subject.subtitle(&self.what());
-        let caption = Caption {
-            title: &title,
-            subtitle: [&subtitle[0], &subtitle[1]],
-            description: &self.description(),
+        let words = Words {
+            shows: None,
+            more: String::new(),
             legend,
         };
-        let plan = plan(&caption, area, super::STRIP);
-        let by = plan.shift;
-        scene.origin = by.map(tidy);
-        let area = area.moved(by);
-        scene.room = [area.left, area.top, area.right, area.bottom].map(tidy);
-        let shift = |p: &mut Point| *p = [p[0] + by[0], p[1] + by[1]];
-        picture.all().for_each(shift);
-        self.shift_ground(by);
-        let mut sheet = Sheet::new(&caption, &plan);
-        sheet.group("data-home", "ground", [0.0; 2], |s| self.draw_ground(s));
-        sheet.group("data-scene", "", [0.0; 2], |s| {
-            self.draw_traces(s);
-            self.draw_frame(s, &picture);
-        });
-        sheet.group("data-home", "scale", [0.0; 2], |s| {
-            self.draw_below(s, &plan)
-        });
-        sheet.finish(&caption, &plan)
-    }
-
-    /// A picture by itself.
-    fn draw_frame(&self, sheet: &mut Sheet, frame: &MovingPicture) {
-        frame.draw(self, sheet);
-        for i in self.outer_first() {
-            let spot = &self.spots[i];
-            sheet.symbol(spot.rect);
-            let mark = self.subject.joint_mark(spot.joint);
-            sheet.group(
-                "data-joint",
-                &self.subject.mechanism.joints[spot.joint].id,
-                frame.at[i],
-                |s| {
-                    self.symbol_in(i, &frame.places[i])
-                        .draw(s, self.subject, spot.joint, mark);
-                },
-            );
-        }
+        self.on_sheet(area, words, |sheet, by| {
+            scene.origin = by.map(tidy);
+            let area = area.moved(by);
+            scene.room = [area.left, area.top, area.right, area.bottom].map(tidy);
+            sheet.group("data-home", "ground", by, |s| self.draw_ground(s));
+            sheet.group("data-scene", "", [0.0; 2], |s| {
+                s.group("data-drawing", "", by, |s| self.draw_at_rest(s, picture));
+            });
+        })
     }
 }
 

@@ -1,8 +1,8 @@
 //! Where the joints of a structural scheme go.
 //!
-//! Links are hyperedges over the joints. A layout starts from several places (the mechanism's own coordinates, Tutte's
-//! barycentric drawing with each contour as the outer face, branches on a circle with the chains between them bundled,
-//! scattered points), is relaxed by stress majorization, and the one with the least crossings and crowding is polished.
+//! Links are hyperedges over the joints. A layout starts from several places: the mechanism's own coordinates, Tutte's
+//! barycentric drawing with each contour as the outer face, and scattered points. It is relaxed by stress majorization, and
+//! those with the least crossings and crowding are polished by annealing.
 //!
 //! # Sources
 //! Gansner, Koren & North, "Graph drawing by stress majorization", GD 2004. Tutte, "How to draw a graph", 1963.
@@ -43,7 +43,7 @@ impl Candidate {
             Some(mirror) => mirror.apply(&mut at),
             None => centre(&mut at),
         }
-        at.truncate(crowding.joints());
+        at.truncate(crowding.graph.joints);
         let favour = favour * if start.drawn { 0.85 } else { 1.0 };
         let favour = favour * if start.mirror.is_some() { 0.75 } else { 1.0 };
         let cost = crowding.cost(&at) * favour;
@@ -88,7 +88,7 @@ pub(in crate::draw) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
         let hubs = hubs(graph, &net, &joints);
         return Layout { joints, hubs };
     }
-    let crowding = Crowding::new(graph);
+    let crowding = Crowding { graph };
     let far = distances(&net);
     let nodes = net.edges.len();
     let rounds = (4_000_000 / (nodes * nodes).max(1)).clamp(4, 80);
@@ -102,27 +102,21 @@ pub(in crate::draw) fn layout(graph: &Graph, hints: &[Vec<Point>]) -> Layout {
             candidates.extend(take(&relaxed, 1.0 - 1e-3 * f64::from(part)));
         }
     }
-    let mut best: Option<Candidate> = None;
-    for mut c in worth_polishing(candidates) {
+    let polished = worth_polishing(candidates).into_iter().map(|mut c| {
         c.polish(&crowding);
-        if best.as_ref().is_none_or(|b| c.cost < b.cost) {
-            best = Some(c);
-        }
+        c
+    });
+    let best = polished.min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let is_symmetric = best.as_ref().is_some_and(|c| c.mirror.is_some());
+    let mut joints = best.map_or_else(|| vec![[0.0; 2]; graph.joints], |c| c.joints);
+    if !is_symmetric {
+        level(graph, &mut joints);
     }
-    let joints = best.map_or_else(
-        || vec![[0.0; 2]; graph.joints],
-        |mut c| {
-            if c.mirror.is_none() {
-                level(graph, &mut c.joints);
-            }
-            c.joints
-        },
-    );
     let hubs = hubs(graph, &net, &joints);
     Layout { joints, hubs }
 }
 
-/// Lays the longest direction level, if there is one, with the frame below.
+/// Lays the longest direction level, with the frame below; a side of the frame where no direction is longer.
 fn level(graph: &Graph, at: &mut [Point]) {
     centre(at);
     let sum = |f: &dyn Fn(&Point) -> f64| at.iter().map(f).sum::<f64>();
@@ -131,15 +125,21 @@ fn level(graph: &Graph, at: &mut [Point]) {
         sum(&|p| p[1] * p[1]),
         sum(&|p| p[0] * p[1]),
     );
+    let frame: &[usize] = graph.frame.map_or(&[], |l| &graph.links[l]);
     let spread = (xx - yy).hypot(2.0 * xy);
-    if spread > 0.15 * (xx + yy) {
-        let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
-        let (c, s) = (angle.cos(), angle.sin());
-        at.iter_mut()
-            .for_each(|p| *p = [c * p[0] + s * p[1], c * p[1] - s * p[0]]);
+    let angle = match frame {
+        _ if spread > 0.15 * (xx + yy) => 0.5 * (2.0 * xy).atan2(xx - yy),
+        &[a, b, ..] => {
+            let [x, y] = sub(at[b], at[a]);
+            y.atan2(x)
+        }
+        _ => 0.0,
+    };
+    let (c, s) = (angle.cos(), angle.sin());
+    for p in at.iter_mut() {
+        *p = [c * p[0] + s * p[1], c * p[1] - s * p[0]];
     }
-    let frame = graph.frame.and_then(|l| graph.links.get(l));
-    let down = mean(frame.into_iter().flatten().map(|&j| at[j]));
+    let down = mean(frame.iter().map(|&j| at[j]));
     if down[1] < -0.1 {
         at.iter_mut().for_each(|p| p[1] = -p[1]);
     }

@@ -11,30 +11,13 @@ const JOINTS: f64 = 0.62;
 /// A joint nearer to a foreign link than this is too near.
 const CLEAR: f64 = 0.36;
 
-/// The graph with what the cost of a layout needs.
+/// Judges layouts of a graph.
 #[derive(Debug)]
 pub(in crate::draw) struct Crowding<'a> {
-    graph: &'a Graph,
-    /// The links of each joint.
-    of_joint: Vec<Vec<usize>>,
+    pub(in crate::draw) graph: &'a Graph,
 }
 
-impl<'a> Crowding<'a> {
-    pub(in crate::draw) fn new(graph: &'a Graph) -> Crowding<'a> {
-        let mut of_joint = vec![Vec::new(); graph.joints];
-        for (l, joints) in graph.links.iter().enumerate() {
-            for &j in joints {
-                of_joint[j].push(l);
-            }
-        }
-        Crowding { graph, of_joint }
-    }
-
-    /// How many joints there are to place.
-    pub(in crate::draw) fn joints(&self) -> usize {
-        self.of_joint.len()
-    }
-
+impl Crowding<'_> {
     /// The cost of the whole.
     pub(in crate::draw) fn cost(&self, at: &[Point]) -> f64 {
         let rings = self.rings(at);
@@ -164,34 +147,6 @@ impl<'a> Crowding<'a> {
             .sum()
     }
 
-    /// What moves of one joint change.
-    fn about(&self, j: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
-        let own = &self.of_joint[j];
-        let mut sum = 0.0;
-        for &l in own {
-            sum += self.shape(&rings[l], at) + self.strangers(l, rings, at);
-        }
-        for (m, other) in rings.iter().enumerate() {
-            for &l in own.iter().filter(|&&l| l != m) {
-                sum += self.meet(&rings[l], other, at);
-            }
-            if !own.contains(&m) {
-                let polygon: Vec<Point> = other.iter().map(|&k| at[k]).collect();
-                sum += self.stranger(at[j], other, &polygon, at);
-            }
-        }
-        let others = (0..at.len()).filter(|&i| i != j);
-        sum + others.map(|i| near(at[i], at[j])).sum::<f64>()
-    }
-
-    fn twin_about(&self, j: usize, twin: usize, rings: &[Vec<usize>], at: &[Point]) -> f64 {
-        if twin == j {
-            0.0
-        } else {
-            self.about(twin, rings, at)
-        }
-    }
-
     /// Annealing by moves of single joints; the same for the same graph.
     pub(in crate::draw) fn polish(&self, at: &mut Vec<Point>, mirror: Option<&Mirror>) {
         let n = at.len();
@@ -201,14 +156,13 @@ impl<'a> Crowding<'a> {
         let sides: usize = self.graph.links.iter().map(Vec::len).sum();
         let moves = (3_000_000 / (8 * (sides + n)).max(1)).clamp(200, 6000);
         let mut dice = Dice::new(n as u64);
-        let mut best = (self.cost(at), at.clone());
         let mut now = at.clone();
-        let mut rings = self.rings(&now);
+        let mut cost = self.cost(at);
+        let mut least = cost;
         for step in 0..moves {
             let cool = 1.0 - step as f64 / moves as f64;
             let j = dice.below(n);
             let twin = mirror.map_or(j, |m| m.image(j));
-            let before = self.about(j, &rings, &now) + self.twin_about(j, twin, &rings, &now);
             let reach = 1.6 * cool * cool + 0.05;
             let old = [now[j], now[twin]];
             now[j] = add(now[j], [reach * dice.signed(), reach * dice.signed()]);
@@ -217,26 +171,18 @@ impl<'a> Crowding<'a> {
             } else if mirror.is_some() {
                 now[j][1] = 0.0;
             }
-            let moved = || self.of_joint[j].iter().chain(&self.of_joint[twin]);
-            let kept: Vec<(usize, Vec<usize>)> = moved().map(|&l| (l, rings[l].clone())).collect();
-            for &l in moved() {
-                rings[l] = ring(&self.graph.links[l], &now);
-            }
-            let after = self.about(j, &rings, &now) + self.twin_about(j, twin, &rings, &now);
-            let gain = before - after;
+            let after = self.cost(&now);
+            let gain = cost - after;
             if gain < 0.0 && dice.even() > (gain / (1.2 * cool * cool + 1e-9)).exp() {
                 (now[j], now[twin]) = (old[0], old[1]);
-                for (l, ring) in kept {
-                    rings[l] = ring;
-                }
-            } else if step % 16 == 0 || cool < 0.1 {
-                let cost = self.cost(&now);
-                if cost < best.0 {
-                    best = (cost, now.clone());
-                }
+                continue;
+            }
+            cost = after;
+            if cost < least {
+                least = cost;
+                at.clone_from(&now);
             }
         }
-        *at = best.1;
     }
 }
 

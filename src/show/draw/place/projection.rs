@@ -11,10 +11,11 @@ use crate::geom::extent::diagonal;
 pub(in crate::draw) use crate::geom::vector::{
     Vector, add, cross, dot, length as norm, scale, sub,
 };
+use crate::geom::vector::{X, Y, Z};
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, JointId, LinkId, Mechanism};
 use crate::svg::plane::{
-    Point, Rect, apart, norm as norm2, segments_cross, sub as sub2, to_segment,
+    Point, Rect, apart, bounds, norm as norm2, segments_cross, sub as sub2, to_segment,
 };
 
 /// Joints nearer than this on paper, in pixels, are in one place.
@@ -86,13 +87,9 @@ pub(in crate::draw) fn real(v: &[Expr; 3]) -> Vector {
 
 /// A joint's frame in numbers; those that are none count as 0.
 pub(in crate::draw) fn turned(f: &Frame) -> JointInSpace {
-    let z = unit(real(&f.axis), [0.0, 0.0, 1.0]);
+    let z = unit(real(&f.axis), Z);
     let reference = real(&f.reference);
-    let other = if z[0].abs() < 0.9 {
-        [1.0, 0.0, 0.0]
-    } else {
-        [0.0, 1.0, 0.0]
-    };
+    let other = if z[0].abs() < 0.9 { X } else { Y };
     let across = |v: Vector| sub(v, scale(z, dot(v, z)));
     let x = unit(across(reference), unit(across(other), other));
     JointInSpace {
@@ -255,7 +252,7 @@ fn planar(places: &[JointInSpace]) -> Option<Vector> {
     let along = unit(far(&|p| p)?, [0.0; 3]);
     let spread = far(&|p| cross(along, p))?;
     let spanned = (norm(spread) > 1e-3 * size).then(|| unit(spread, [0.0; 3]));
-    let axes = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let axes = [Z, Y, X];
     let normals = axes.into_iter().chain(hinge(places)).chain(spanned);
     let off = |p: &JointInSpace, n: Vector| dot(sub(p.point, first), n).abs();
     let flat = |n: &Vector| places.iter().all(|p| off(p, *n) <= FLAT * size);
@@ -343,14 +340,6 @@ fn pairs(of: &[usize]) -> Vec<(usize, usize)> {
     (0..count).map(|i| (of[i], of[(i + 1) % n])).collect()
 }
 
-/// The rectangle round some points.
-pub(in crate::draw) fn bounds(points: &[Point]) -> Rect {
-    let first = points.first().copied().unwrap_or([0.0; 2]);
-    points.iter().fold(Rect::around(first, 0.0, 0.0), |r, &p| {
-        r.with(&Rect::around(p, 0.0, 0.0))
-    })
-}
-
 fn extent(places: &[JointInSpace]) -> f64 {
     diagonal(places.iter().map(|p| p.point))
 }
@@ -362,8 +351,7 @@ fn middle(places: &[JointInSpace]) -> Vector {
 
 /// A unit vector across another.
 pub(in crate::draw) fn across(z: Vector) -> Vector {
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let [a, b] = axes.map(|e| sub(e, scale(z, dot(e, z))));
+    let [a, b] = [X, Y].map(|e| sub(e, scale(z, dot(e, z))));
     let longer = if norm(a) > norm(b) { a } else { b };
-    unit(longer, [1.0, 0.0, 0.0])
+    unit(longer, X)
 }

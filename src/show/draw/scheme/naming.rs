@@ -2,9 +2,9 @@
 
 use super::Scheme;
 use crate::draw::sheet::SMALL;
-use crate::draw::sheet::labels::{AvoidedLine, LabelPlace, Wish, place};
 use crate::draw::sheet::shapes::{HALF, grid, outline};
 use crate::model::mechanism::Role;
+use crate::svg::labels::{AvoidedLine, LabelPlace, Wish, place};
 use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, to_segment, unit};
 use crate::svg::text::{names, width};
 

@@ -1,6 +1,6 @@
 //! Polygons and bars with round corners, their hatching, and points within them.
 
-use crate::svg::plane::{Point, Rect, add, cross, dot, inside, scale, sub, unit};
+use crate::svg::plane::{Point, add, bounds, cross, dot, inside, scale, sub, unit};
 use crate::svg::xml::number;
 use std::fmt::Write as _;
 
@@ -135,24 +135,11 @@ fn spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
 
 /// Points of a grid within a polygon.
 pub(in crate::draw) fn grid(polygon: &[Point], steps: usize) -> Vec<Point> {
-    let Some(&first) = polygon.first() else {
-        return Vec::new();
+    let [left, top, right, bottom] = bounds(polygon).edges();
+    let all = (0..steps).flat_map(|i| (0..steps).map(move |j| [i, j]));
+    let at = |cell: [usize; 2]| {
+        let [x, y] = cell.map(|k| (k as f64 + 0.5) / steps as f64);
+        [left + (right - left) * x, top + (bottom - top) * y]
     };
-    let area = polygon.iter().fold(Rect::around(first, 0.0, 0.0), |r, &p| {
-        r.with(&Rect::around(p, 0.0, 0.0))
-    });
-    let mut out = Vec::new();
-    for i in 0..steps {
-        for j in 0..steps {
-            let t = |k: usize| (k as f64 + 0.5) / steps as f64;
-            let p = [
-                area.left + (area.right - area.left) * t(i),
-                area.top + (area.bottom - area.top) * t(j),
-            ];
-            if inside(p, polygon) {
-                out.push(p);
-            }
-        }
-    }
-    out
+    all.map(at).filter(|&p| inside(p, polygon)).collect()
 }

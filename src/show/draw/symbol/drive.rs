@@ -1,15 +1,11 @@
-//! The sign of a driving pair: an arrow round one that turns, a straight one beside one that slides.
+//! The sign of a driving pair: which slides are driven, and the arrow round one that turns.
 
 use crate::draw::sheet::Shape;
-use crate::draw::symbol::pieces::{ALWAYS, END_ON, Form, Piece};
 use crate::model::joint_type::Freedom;
 use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::motion::pose::Pose;
 use crate::rank::stroke::request::drive_or_any;
 use std::f64::consts::PI;
-
-/// How far beside its axis the arrow of a slide is: past the hatching of a rail.
-const BESIDE: f64 = 15.0;
 
 /// The axes of their frames that the driven joints of a state slide along, of those whose drive turns nothing.
 pub(in crate::draw) fn driven_slides(m: &Mechanism, state: StateId) -> Vec<(JointId, usize)> {
@@ -43,42 +39,6 @@ fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freed
     Some(pose.columns[column].freedom)
 }
 
-/// The straight arrow beside a joint that slides along one of its axes.
-pub(in crate::draw) fn straight(axis: usize) -> Vec<Piece> {
-    let along = |class, points: &[[f64; 2]], closed| Piece {
-        class,
-        form: Form::Along(axis, points.to_vec(), closed),
-        seen: ALWAYS,
-    };
-    let tip = |class, radius| Piece {
-        class,
-        form: Form::Paper(ring(radius), true),
-        seen: match axis {
-            2 => END_ON..2.0,
-            _ => 0.0..0.0,
-        },
-    };
-    vec![
-        along("line", &[[-12.0, BESIDE], [7.0, BESIDE]], false),
-        along(
-            "ink",
-            &[[14.0, BESIDE], [6.0, BESIDE + 3.0], [6.0, BESIDE - 3.0]],
-            true,
-        ),
-        tip("joint", 4.5),
-        tip("ink", 1.6),
-    ]
-}
-
-/// A small circle above the joint.
-fn ring(radius: f64) -> Vec<[f64; 2]> {
-    let on = |i: i32| {
-        let angle = 2.0 * PI * f64::from(i) / 16.0;
-        [radius * angle.cos(), radius * angle.sin() - BESIDE]
-    };
-    (0..16).map(on).collect()
-}
-
 /// The arrow round a driving pair that turns, which is no circle: that is a second joint.
 pub(in crate::draw) fn round(mark: &str, radius: f64) -> Vec<Shape> {
     const FROM: f64 = 0.25 * PI;
@@ -91,14 +51,8 @@ pub(in crate::draw) fn round(mark: &str, radius: f64) -> Vec<Shape> {
         on(back, radius + 2.6),
         on(back, radius - 2.6),
     ];
-    let arc = Shape::line(format!("line{mark}"), arc.collect());
-    let (class, closed) = (format!("ink{mark}"), true);
     vec![
-        arc,
-        Shape::Path {
-            class,
-            points: head,
-            closed,
-        },
+        Shape::line(format!("line{mark}"), arc.collect()),
+        Shape::path(format!("ink{mark}"), head, true),
     ]
 }

@@ -1,9 +1,9 @@
 //! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
 
-use crate::draw::place::projection::{ONE_PLACE, bounds};
+use crate::draw::place::projection::ONE_PLACE;
 use crate::draw::sheet::Sheet;
 use crate::model::mechanism::LinkId;
-use crate::svg::plane::{Point, Rect, add, dot, norm, polyline, scale, sub, unit};
+use crate::svg::plane::{Point, Rect, add, bounds, dot, norm, polyline, scale, sub, unit};
 use std::f64::consts::TAU;
 
 /// Half the hatched line under a pivot.

@@ -4,6 +4,7 @@ use crate::draw::place::projection::{self, View};
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};
 use crate::draw::symbol::pieces::PaperPose;
 use crate::draw::symbol::symbols;
+use crate::geom::vector::{X, Y, Z};
 use crate::model::joint_type::{Freedom, JointType};
 use crate::svg::plane::{Point, Rect, add, norm, scale};
 use itertools::Itertools;
@@ -34,12 +35,7 @@ pub fn joint_type(of: &JointType) -> Drawing {
         ),
         legend: Vec::new(),
     };
-    let area = Rect {
-        left: 0.0,
-        top: 0.0,
-        right: 2.0 * ROOM[0],
-        bottom: ROOM[1],
-    };
+    let area = Rect::new(0.0, 0.0, 2.0 * ROOM[0], ROOM[1]);
     let plan = plan(&caption, area, 0.0);
     let mut sheet = Sheet::new(&caption, &plan);
     for (n, view) in [projection::aslant(), projection::along_z()]
@@ -47,18 +43,19 @@ pub fn joint_type(of: &JointType) -> Drawing {
         .enumerate()
     {
         let middle = [ROOM[0] * (n as f64 + 0.5), ROOM[1] / 2.0];
-        draw(&mut sheet, of, view, add(middle, plan.shift));
+        let at = add(middle, plan.shift);
+        sheet.group("data-drawing", "", at, |s| draw(s, of, view));
     }
     sheet.finish(&caption, &plan)
 }
 
-fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+fn draw(sheet: &mut Sheet, of: &JointType, view: &View) {
+    let axes = [X, Y, Z];
     let shapes = symbols::symbol(of, &PaperPose::of_axes(axes, view), "", LARGE);
     for (n, axis) in axes.into_iter().enumerate() {
         let tip = scale(view.flat(axis), AXIS);
         if norm(tip) > 4.0 {
-            sheet.arrow("fine", add(at, scale(tip, -0.55)), add(at, tip), 8.0);
+            sheet.arrow("fine", scale(tip, -0.55), tip, 8.0);
         }
         let name = ["x", "y", "z"][n];
         let own = of.freedoms().iter().filter(|f| axis_of(**f) == n);
@@ -78,10 +75,10 @@ fn draw(sheet: &mut Sheet, of: &JointType, view: &View, at: Point) {
         } else {
             [-0.62 * AXIS, 0.62 * AXIS]
         };
-        sheet.text("small", 12.0, add(at, place), Anchor::Middle, &label);
+        sheet.text("small", 12.0, place, Anchor::Middle, &label);
     }
-    sheet.shapes(&shapes, at);
-    sheet.symbol(symbols::extent(&shapes).moved(at));
+    sheet.shapes(&shapes);
+    sheet.symbol(symbols::extent(&shapes));
 }
 
 /// The axis of the frame that a freedom is about or along.

@@ -2,9 +2,9 @@
 
 use crate::draw::place::projection::{JointInSpace, Vector, View, dot};
 use crate::draw::sheet::Shape;
-use crate::svg::plane::{Point, add, cross, norm, scale, sub, unit};
+use crate::svg::plane::{Point, add, cross, mean, norm, scale, sub, unit};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 /// A joint's frame on paper.
 #[derive(Debug, Clone, Copy)]
@@ -27,95 +27,129 @@ impl PaperPose {
         }
     }
 
-    fn at(&self, p: &Vector) -> Point {
-        let parts = self.axes.iter().zip(p).map(|(a, x)| scale(*a, *x));
-        parts.fold([0.0; 2], add)
+    /// The place of a point of three numbers; of one of two it is beside an axis, or always the same.
+    fn at(&self, p: &[f64], along: Option<usize>) -> Point {
+        match (p, along) {
+            (&[x, y], Some(axis)) => {
+                let axis = self.axes[axis];
+                add(scale(axis, x), scale(upper_side(axis), y))
+            }
+            (&[x, y], None) => [x, y],
+            _ => {
+                let parts = self.axes.iter().zip(p).map(|(a, x)| scale(*a, *x));
+                parts.fold([0.0; 2], add)
+            }
+        }
     }
 }
 
 /// A piece of a symbol, in pixels.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(in crate::draw) struct Piece {
+    form: Form,
     /// The class of the style sheet.
-    pub(in crate::draw) class: &'static str,
-    pub(in crate::draw) form: Form,
+    class: String,
+    /// In the frame of the joint; points of two numbers lie on paper, whatever the view.
+    points: Vec<Vec<f64>>,
+    /// Of a ball, and of the circles on paper at the points of a hull.
+    #[serde(default)]
+    radius: f64,
+    /// The axis that points of two numbers are along and beside; the piece is not seen where the axis is seen from its end.
+    #[serde(default)]
+    along: Option<usize>,
     /// It is there where so much of the joint's axis z points at the reader.
-    pub(in crate::draw) seen: Range<f64>,
+    #[serde(default = "always")]
+    seen: [f64; 2],
 }
 
 /// What a piece is.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(in crate::draw) enum Form {
-    /// All between some points, each with a circle on paper of a radius.
-    Hull(Vec<Vector>, f64),
+    /// All between the points.
+    Hull,
     /// A polygon seen from its front only, where its corners run counter-clockwise.
-    Face(Vec<Vector>),
-    /// A line through some points.
-    Line(Vec<Vector>),
-    /// A ball of a radius.
-    Ball(Vector, f64),
-    /// Along one of the axes, and so far beside it on paper, whatever the view: a line, or a polygon where it is closed. Not
-    /// seen where the axis is seen from its end.
-    Along(usize, Vec<Point>, bool),
-    /// What is turned to the reader always: a line, or a polygon where it is closed.
-    Paper(Vec<Point>, bool),
+    Face,
+    /// A line through the points.
+    Line,
+    /// A polygon.
+    Loop,
+    /// A ball round the only point.
+    Ball,
 }
 
-/// At any turn of the axis.
-pub(in crate::draw) const ALWAYS: Range<f64> = 0.0..2.0;
+fn always() -> [f64; 2] {
+    [0.0, 2.0]
+}
+
 /// Where so much of an axis points at the reader, it is seen from its end.
-pub(in crate::draw) const END_ON: f64 = 0.9;
-/// Faces smaller than this, in square pixels at the usual size, are seen from the side.
+const END_ON: f64 = 0.9;
+/// Faces smaller than this, in square pixels, are seen from the side.
 const EDGE: f64 = 0.05;
 
+/// To a hundredth of a pixel.
+pub(in crate::draw) fn tidy(x: f64) -> f64 {
+    (x * 100.0).round() / 100.0
+}
+
 impl Piece {
-    /// How it looks from a side, so many times its size; nothing where it is not seen. `mark` is added to the class.
-    pub(in crate::draw) fn shape(&self, pose: &PaperPose, mark: &str, size: f64) -> Option<Shape> {
-        if !self.seen.contains(&pose.toward[2].abs()) {
+    /// A shape that is turned to the reader always.
+    pub(in crate::draw) fn on_paper(shape: &Shape) -> Piece {
+        let (form, class, points, radius) = match shape {
+            Shape::Path {
+                class,
+                points,
+                closed,
+            } => {
+                let form = if *closed { Form::Loop } else { Form::Line };
+                (form, class, points.clone(), 0.0)
+            }
+            Shape::Circle { at, radius, class } => (Form::Ball, class, vec![*at], tidy(*radius)),
+        };
+        let points = points.iter().map(|p| p.map(tidy).to_vec()).collect();
+        Piece {
+            form,
+            class: class.clone(),
+            points,
+            radius,
+            along: None,
+            seen: always(),
+        }
+    }
+
+    /// It so many times its size; `mark` is added to the class.
+    pub(in crate::draw) fn sized(&self, mark: &str, size: f64) -> Piece {
+        let points = self.points.iter();
+        let points = points.map(|p| p.iter().map(|x| tidy(x * size)).collect());
+        Piece {
+            class: format!("{}{mark}", self.class),
+            points: points.collect(),
+            radius: tidy(self.radius * size),
+            ..self.clone()
+        }
+    }
+
+    /// How it looks from a side; nothing where it is not seen.
+    pub(in crate::draw) fn shape(&self, pose: &PaperPose) -> Option<Shape> {
+        let ahead = pose.toward[2].abs();
+        let ended = self.along.is_some_and(|a| pose.toward[a].abs() >= END_ON);
+        if ended || ahead < self.seen[0] || ahead >= self.seen[1] {
             return None;
         }
-        let class = format!("{}{mark}", self.class);
-        let flat = |points: &[Vector]| -> Vec<Point> {
-            points.iter().map(|p| scale(pose.at(p), size)).collect()
-        };
-        let (points, closed) = match &self.form {
-            Form::Hull(points, 0.0) => (hull(flat(points)), true),
-            Form::Hull(points, round) => {
-                let discs = flat(points).into_iter().flat_map(|p| disc(p, round * size));
-                (hull(discs.collect()), true)
+        let points = self.points.iter();
+        let points: Vec<Point> = points.map(|p| pose.at(p, self.along)).collect();
+        let class = self.class.clone();
+        Some(match self.form {
+            Form::Ball => Shape::circle(class, mean(points.into_iter()), self.radius),
+            Form::Line => Shape::line(class, points),
+            // y goes down on paper
+            Form::Face if turning(&points) > -EDGE => return None,
+            Form::Face | Form::Loop => Shape::path(class, points, true),
+            Form::Hull => {
+                let discs = points.into_iter().flat_map(|p| disc(p, self.radius));
+                Shape::path(class, hull(discs.collect()), true)
             }
-            Form::Face(points) => {
-                let points = flat(points);
-                // y goes down on paper
-                if turning(&points) > -EDGE * size * size {
-                    return None;
-                }
-                (points, true)
-            }
-            Form::Line(points) => (flat(points), false),
-            Form::Along(axis, points, closed) => {
-                if pose.toward[*axis].abs() >= END_ON {
-                    return None;
-                }
-                let (axis, side) = (pose.axes[*axis], upper_side(pose.axes[*axis]));
-                let on = |p: &Point| scale(add(scale(axis, p[0]), scale(side, p[1])), size);
-                (points.iter().map(on).collect(), *closed)
-            }
-            Form::Paper(points, closed) => {
-                (points.iter().map(|&p| scale(p, size)).collect(), *closed)
-            }
-            Form::Ball(at, radius) => {
-                return Some(Shape::Circle {
-                    at: scale(pose.at(at), size),
-                    radius: radius * size,
-                    class,
-                });
-            }
-        };
-        Some(Shape::Path {
-            class,
-            points,
-            closed,
         })
     }
 }
@@ -133,9 +167,10 @@ fn turning(points: &[Point]) -> f64 {
     points.iter().zip(next).map(|(&a, &b)| cross(a, b)).sum()
 }
 
-/// A circle as a polygon.
+/// A circle as a polygon; the point alone where the radius is 0.
 fn disc(at: Point, radius: f64) -> impl Iterator<Item = Point> {
-    (0..24).map(move |i| {
+    let corners = if radius > 0.0 { 24 } else { 1 };
+    (0..corners).map(move |i| {
         let angle = TAU * f64::from(i) / 24.0;
         add(at, [radius * angle.cos(), radius * angle.sin()])
     })

@@ -1,7 +1,7 @@
 //! The symbol of a joint at its place: with the ring of a drive, within others that stand there, and in place of another.
 
 use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
-use crate::draw::sheet::{Shape, Sheet};
+use crate::draw::sheet::{ROW, Shape, Sheet};
 use crate::draw::subject::{Mark, Subject};
 use crate::draw::symbol::pieces::{PaperPose, Piece};
 use crate::draw::symbol::{drive, symbols};
@@ -13,7 +13,8 @@ use crate::svg::plane::{Point, Rect, norm, sub};
 pub(in crate::draw) struct Symbol {
     of: JointType,
     pose: PaperPose,
-    shapes: Vec<Shape>,
+    /// Whether the joint is there in this state alone.
+    only_here: bool,
     /// How many times the usual size it is.
     pub(in crate::draw) size: f64,
     pub(in crate::draw) room: Rect,
@@ -34,27 +35,23 @@ impl Symbol {
         slide: Option<usize>,
     ) -> Symbol {
         let pose = PaperPose::new(place, view);
-        let shapes = symbols::symbol(of, &pose, "", size);
-        let own = symbols::extent(&shapes);
+        let own = symbols::extent(&symbols::symbol(of, &pose, "", size));
         let reach = (own.right - own.left).max(own.bottom - own.top) / 2.0 + 3.0;
-        let joint = &subject.mechanism.joints[joint];
-        let ring = (joint.drive && slide.is_none()).then_some(reach.min(14.0 * size));
+        let drive = subject.mechanism.joints[joint].drive;
+        let ring = (drive && slide.is_none()).then_some(reach.min(14.0 * size));
         let mut room = own;
         if let Some(r) = ring {
             room = room.with(&Rect::around([0.0; 2], 2.0 * r + 5.4, 2.0 * r + 5.4));
         }
         if let Some(axis) = slide {
-            let arrow = drive::straight(axis);
-            let arrow: Vec<Shape> = arrow
-                .iter()
-                .filter_map(|p| p.shape(&pose, "", size))
-                .collect();
-            room = room.with(&symbols::extent(&arrow));
+            let arrow = symbols::arrow(axis).iter();
+            let arrow = arrow.filter_map(|p| p.sized("", size).shape(&pose));
+            room = room.with(&symbols::extent(&arrow.collect::<Vec<_>>()));
         }
         Symbol {
             of: of.clone(),
             pose,
-            shapes,
+            only_here: subject.only_here(joint),
             size,
             room,
             ring,
@@ -62,61 +59,37 @@ impl Symbol {
         }
     }
 
-    pub(in crate::draw) fn marked(mut self, mark: Mark) -> Symbol {
-        self.shapes = symbols::symbol(&self.of, &self.pose, mark.class(), self.size);
-        self
-    }
-
-    /// Its shapes in the usual size, without a mark.
-    pub(in crate::draw) fn plain(&self) -> Vec<Shape> {
-        symbols::symbol(&self.of, &self.pose, "", 1.0)
+    /// Its shapes without a mark, small enough for a row of the legend.
+    pub(in crate::draw) fn small(&self) -> Vec<Shape> {
+        let usual = symbols::extent(&symbols::symbol(&self.of, &self.pose, "", 1.0));
+        let by = (ROW - 2.0) / (usual.bottom - usual.top);
+        symbols::symbol(&self.of, &self.pose, "", by.min(1.0))
     }
 
     /// How far it reaches from its middle.
     pub(in crate::draw) fn reach(&self) -> f64 {
-        let r = &self.room;
-        [-r.left, -r.top, r.right, r.bottom]
-            .into_iter()
-            .fold(0.0, f64::max)
+        let [left, top, right, bottom] = self.room.edges();
+        (-left).max(-top).max(right).max(bottom).max(0.0)
     }
 
-    pub(in crate::draw) fn draw(
-        &self,
-        sheet: &mut Sheet,
-        subject: &Subject<'_>,
-        joint: JointId,
-        mark: Mark,
-    ) {
-        let (below, above) = self.round(subject, joint, mark);
-        sheet.shapes(&below, [0.0; 2]);
-        sheet.shapes(&self.shapes, [0.0; 2]);
-        let arrow = self.arrow();
-        let arrow = arrow.iter();
-        let arrow = arrow.filter_map(|p| p.shape(&self.pose, mark.class(), self.size));
-        sheet.shapes(&arrow.collect::<Vec<_>>(), [0.0; 2]);
-        sheet.shapes(&above, [0.0; 2]);
+    pub(in crate::draw) fn draw(&self, sheet: &mut Sheet, mark: Mark) {
+        let pieces = self.pieces(mark).into_iter();
+        let shapes: Vec<Shape> = pieces.filter_map(|p| p.shape(&self.pose)).collect();
+        sheet.shapes(&shapes);
     }
 
-    /// The straight arrow of a driven slide.
-    pub(in crate::draw) fn arrow(&self) -> Vec<Piece> {
-        self.slide.map(drive::straight).unwrap_or_default()
-    }
-
-    /// What stands round the symbol, below and above it, and is turned to the reader always.
-    pub(in crate::draw) fn round(
-        &self,
-        subject: &Subject<'_>,
-        joint: JointId,
-        mark: Mark,
-    ) -> (Vec<Shape>, Vec<Shape>) {
-        let drive = |r| drive::round(mark.class(), r);
-        let only_here = subject.only_here(joint).then(|| Shape::Circle {
-            at: [0.0; 2],
-            radius: self.ring.unwrap_or(10.0 * self.size) + 2.5,
-            class: "fine dash".to_owned(),
-        });
-        let below = self.ring.map(drive).unwrap_or_default();
-        (below, only_here.into_iter().collect())
+    /// Its pieces from the back to the front, with the ring or the arrow of a drive and the ring of a joint of this state alone.
+    pub(in crate::draw) fn pieces(&self, mark: Mark) -> Vec<Piece> {
+        let mark = mark.class();
+        let below = self.ring.map(|r| drive::round(mark, r)).unwrap_or_default();
+        let arrow = self.slide.map_or(&[][..], symbols::arrow);
+        let own = symbols::pieces(&self.of).iter().chain(arrow);
+        let own = own.map(|p| p.sized(mark, self.size));
+        let radius = self.ring.unwrap_or(10.0 * self.size) + 2.5;
+        let above = Shape::circle("fine dash", [0.0; 2], radius);
+        let above = self.only_here.then(|| Piece::on_paper(&above));
+        let below = below.iter().map(Piece::on_paper);
+        below.chain(own).chain(above).collect()
     }
 }
 
@@ -133,11 +106,7 @@ pub struct Swap<'a> {
 
 /// The mark of an unloading joint round a symbol of some reach.
 pub(in crate::draw) fn ring(reach: f64) -> Shape {
-    Shape::Circle {
-        at: [0.0; 2],
-        radius: reach + 4.0,
-        class: "line new".to_owned(),
-    }
+    Shape::circle("line new", [0.0; 2], reach + 4.0)
 }
 
 /// How much larger the next joint outwards is, so that the outline of each is seen.

@@ -1,13 +1,8 @@
 // The cards: filtered, sorted, a page of them at a time.
 const packed = JSON.parse(document.getElementById('data').textContent);
 const data = { file: packed.file, cards: [] };
-const by = (id) => document.getElementById(id);
 const STEP = 60;
 const BIGGEST_FIRST = ['force_min', 'transmission', 'determinate_w1'];
-
-function grouped(digits) {
-  return String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ',');
-}
 
 function short(x) {
   return x === null || x === undefined ? '–' : String(+Number(x).toPrecision(3));
@@ -27,13 +22,6 @@ async function complete(c) {
   all.forEach((chosen, i) => Object.assign(data.cards[first + i], chosen));
 }
 
-function text(name, content, attributes) {
-  const e = document.createElement(name);
-  e.textContent = content;
-  for (const [key, value] of Object.entries(attributes || {})) e.setAttribute(key, value);
-  return e;
-}
-
 const least = (c) => (c.certainty === 'exact' ? '' : 'at least ');
 const motions = (c) => [c.jaw_a_motion, c.jaw_b_motion, c.jaw_c_motion].filter((m) => m);
 const jawsOf = (c) => [...new Set(motions(c))].join(' and ');
@@ -51,22 +39,18 @@ function titleOf(c) {
 }
 
 function cardOf(c) {
-  const item = document.createElement('li');
-  const button = text('button', '', { class: 'card', type: 'button', 'data-id': c.id });
   const task = does(c) ? 'Does the task' : c.shortfall;
-  button.append(
+  const button = element('button', { class: 'card', type: 'button', 'data-id': c.id },
     gripper(c, titleOf(c)),
-    text('b', titleOf(c)),
-    ...(c.drawn ? [] : [text('span', task, { class: does(c) ? 'does' : 'lacks' })]),
-    text('span', c.drawn || c.classics ? `${c.links} links, ${formOf(c)}` : `${c.symmetry} layout${c.parallel ? ', parallelograms' : ''}`),
-    text('span', c.drawn ? c.description : `${c.classics ? `jaws ${jawsOf(c)}, ` : ''}${short(c.force_min)} ${unit(c)} at least, transmission angle from ${short(c.transmission)}°`),
-    text('span', `${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
-    text('span', c.id),
-  );
+    element('b', {}, titleOf(c)),
+    c.drawn ? null : element('span', { class: does(c) ? 'does' : 'lacks' }, task),
+    element('span', {}, c.drawn || c.classics ? `${c.links} links, ${formOf(c)}` : `${c.symmetry} layout${c.parallel ? ', parallelograms' : ''}`),
+    element('span', {}, c.drawn ? c.description : `${c.classics ? `jaws ${jawsOf(c)}, ` : ''}${short(c.force_min)} ${unit(c)} at least, transmission angle from ${short(c.transmission)}°`),
+    element('span', {}, `${least(c)}${grouped(c.determinate_w1)} redesign${c.determinate_w1 === '1' ? '' : 's'}, from cost ${short(c.best_cost)}`),
+    element('span', {}, c.id));
   button.addEventListener('click', () => choose(c, button));
   movesWhenMet(button, c);
-  item.append(button);
-  return item;
+  return element('li', {}, button);
 }
 
 let shown = [], given = 0;
@@ -101,20 +85,20 @@ const FILTERS = {
 /** What is asked, read once for all cards: of each filter that is set, its id and whether it keeps a card. */
 function wanted() {
   return Object.entries(FILTERS).flatMap(([id, keeps]) => {
-    const input = by(id), value = input.type === 'checkbox' ? (input.checked ? 'on' : '') : input.value.trim().toLowerCase();
+    const input = byId(id), value = input.type === 'checkbox' ? (input.checked ? 'on' : '') : input.value.trim().toLowerCase();
     return value === '' ? [] : [[id, (c) => keeps(c, value)]];
   });
 }
 
 /** Which filters are in the way where nothing is left: how many grippers there are without each. */
 function inTheWay(asked) {
-  const words = (id) => by(id).closest('label').firstChild.textContent.trim() || by(id).closest('label').textContent.trim();
+  const words = (id) => byId(id).closest('label').firstChild.textContent.trim() || byId(id).closest('label').textContent.trim();
   const without = asked.flatMap(([id]) => {
     const n = data.cards.filter((c) => asked.every(([other, keeps]) => other === id || keeps(c))).length;
     return n ? [`without “${words(id)}” ${grouped(n)}`] : [];
   });
   const out = without.length ? [without.join(', ')] : ['more than one filter is in the way'];
-  if (by('jaws').value === 'parallel' && !data.cards.some((c) => FILTERS.jaws(c, 'parallel'))) {
+  if (byId('jaws').value === 'parallel' && !data.cards.some((c) => FILTERS.jaws(c, 'parallel'))) {
     out.push('with only hinges, jaws that do not turn need ten links; with slides, four do (ozols catalog build --pairs slide,gear,slot)');
   }
   return out.join('; ');
@@ -122,26 +106,26 @@ function inTheWay(asked) {
 
 function more() {
   const next = shown.slice(given, given + STEP);
-  by('cards').append(...next.map(cardOf));
+  byId('cards').append(...next.map(cardOf));
   given += next.length;
-  by('more').hidden = given >= shown.length;
+  byId('more').hidden = given >= shown.length;
 }
 
 function show() {
   const asked = wanted();
   shown = data.cards.filter((c) => asked.every(([, keeps]) => keeps(c)));
-  const key = by('sort').value;
+  const key = byId('sort').value;
   if (key) {
     const sign = BIGGEST_FIRST.includes(key) ? -1 : 1;
     const value = (c) => (c[key] === null || c[key] === undefined ? Infinity : sign * Number(c[key]));
     shown.sort((a, b) => value(a) - value(b));
   }
   rest();
-  by('cards').replaceChildren();
+  byId('cards').replaceChildren();
   given = 0;
   more();
   const n = data.cards.length;
-  by('count').textContent = shown.length === n ? `All ${grouped(n)} grippers.`
+  byId('count').textContent = shown.length === n ? `All ${grouped(n)} grippers.`
     : shown.length ? `${grouped(shown.length)} of ${grouped(n)} grippers.`
     : `None of ${grouped(n)} grippers is like that: ${inTheWay(asked)}.`;
 }
@@ -149,12 +133,12 @@ function show() {
 unpacked(packed.cards).then((cards) => {
   cards.forEach((c, place) => Object.assign(c, { place }));
   data.cards = cards;
-  for (const n of [...new Set(cards.map((c) => c.links))].sort((a, b) => a - b)) by('links').append(text('option', n, { value: n }));
+  for (const n of [...new Set(cards.map((c) => c.links))].sort((a, b) => a - b)) byId('links').append(element('option', { value: n }, n));
   show();
 });
 let pending = 0;
-by('filters').addEventListener('input', () => { clearTimeout(pending); pending = setTimeout(show, 120); });
-by('filters').addEventListener('reset', () => setTimeout(show));
-by('filters').addEventListener('submit', (e) => e.preventDefault());
-by('more').querySelector('button').addEventListener('click', more);
-new IntersectionObserver((seen) => { if (seen.some((s) => s.isIntersecting) && given < shown.length) more(); }, { rootMargin: '600px' }).observe(by('more'));
+byId('filters').addEventListener('input', () => { clearTimeout(pending); pending = setTimeout(show, 120); });
+byId('filters').addEventListener('reset', () => setTimeout(show));
+byId('filters').addEventListener('submit', (e) => e.preventDefault());
+byId('more').querySelector('button').addEventListener('click', more);
+new IntersectionObserver((seen) => { if (seen.some((s) => s.isIntersecting) && given < shown.length) more(); }, { rootMargin: '600px' }).observe(byId('more'));

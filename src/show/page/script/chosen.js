@@ -6,13 +6,10 @@ function changeList(changes) {
   for (const c of changes) {
     const from = `${c.id}: ${c.from}`;
     const item = element("li", {});
-    const state = page.swaps.findIndex((s, n) => symbolOf(n, "kinematic", c) !== null);
+    const state = page.swaps.findIndex((_, n) => swapOf(n, c));
     if (state >= 0) {
-      const picture = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-      for (const [k, v] of [["class", "ozd"], ["viewBox", "-19 -19 38 38"], ["width", 30], ["height", 30], ["aria-hidden", "true"]]) {
-        picture.setAttribute(k, v);
-      }
-      picture.append(...symbol(symbolOf(state, "kinematic", c)));
+      const picture = svgElement("svg", { class: "ozd", viewBox: "-19 -19 38 38", width: 30, height: 30, "aria-hidden": "true" });
+      picture.append(...symbolOf(state, swapOf(state, c)));
       item.append(picture);
     }
     const classes = c.classes.every(Boolean) ? ` (class ${c.classes.join(" → ")})` : "";

@@ -1,5 +1,5 @@
 // Links that are pulled about while their joints stay closed: each link has six coordinates, each joint its equations, and a
-// pull is followed by least squares (Gauss and Newton), with the normal equations factored link by link.
+// pull is followed by least squares (Gauss and Newton).
 
 /** A radian counts as so many pixels. */
 const REACH = 60;
@@ -133,97 +133,28 @@ function tiesOf(scene, holds, links) {
   });
 }
 
-/** A symmetric matrix of blocks of six by six, by the pair of links. */
-function blocksOf(equations, weights, damping, count, fixed) {
-  const blocks = Array.from({ length: count }, () => new Map());
-  const right = Array.from({ length: count }, () => new Float64Array(6));
-  const blockAt = (i, j) => {
-    if (!blocks[i].has(j)) blocks[i].set(j, new Float64Array(36));
-    return blocks[i].get(j);
-  };
-  for (let i = 0; i < count; i += 1) if (i !== fixed) for (let k = 0; k < 6; k += 1) blockAt(i, i)[7 * k] = damping;
+/** The step that meets weighted equations best, six numbers a link: from the normal equations, damped so that each has a solution. */
+function stepFor(equations, weights, damping, count, fixed) {
+  const size = 6 * count;
+  const rows = Array.from({ length: size }, (_, i) => new Float64Array(size + 1).fill(damping, i, i + 1));
   equations.forEach(({ parts, value }, n) => {
-    const w = weights(n);
-    for (const p of parts) {
-      if (p.link === fixed) continue;
-      for (let r = 0; r < 6; r += 1) right[p.link][r] -= w * p.row[r] * value;
-      for (const q of parts) {
-        if (q.link === fixed) continue;
-        const to = blockAt(p.link, q.link);
-        for (let r = 0; r < 6; r += 1) if (p.row[r] !== 0) for (let c = 0; c < 6; c += 1) to[6 * r + c] += w * p.row[r] * q.row[c];
+    const moving = parts.filter((p) => p.link !== fixed);
+    for (const p of moving) {
+      for (let r = 0; r < 6; r += 1) {
+        const [row, by] = [rows[6 * p.link + r], weights(n) * p.row[r]];
+        row[size] -= by * value;
+        for (const q of by === 0 ? [] : moving) for (let k = 0; k < 6; k += 1) row[6 * q.link + k] += by * q.row[k];
       }
     }
   });
-  return { blocks, right };
-}
-
-/** The inverse of a symmetric positive block of six by six. */
-function inverse(m) {
-  const a = Array.from({ length: 6 }, (_, r) => [...m.slice(6 * r, 6 * r + 6), ...Array.from({ length: 6 }, (_, c) => (r === c ? 1 : 0))]);
-  for (let k = 0; k < 6; k += 1) {
-    const d = a[k][k];
-    for (let c = 0; c < 12; c += 1) a[k][c] /= d;
-    for (let r = 0; r < 6; r += 1) {
-      if (r === k || a[r][k] === 0) continue;
-      const f = a[r][k];
-      for (let c = 0; c < 12; c += 1) a[r][c] -= f * a[k][c];
-    }
-  }
-  return Float64Array.from(a.flatMap((row) => row.slice(6)));
-}
-
-function product(a, b) {
-  const out = new Float64Array(36);
-  for (let r = 0; r < 6; r += 1) for (let k = 0; k < 6; k += 1) {
-    const x = a[6 * r + k];
-    if (x !== 0) for (let c = 0; c < 6; c += 1) out[6 * r + c] += x * b[6 * k + c];
-  }
-  return out;
-}
-
-const applied = (m, v) => Float64Array.from({ length: 6 }, (_, r) => [0, 1, 2, 3, 4, 5].reduce((sum, c) => sum + m[6 * r + c] * v[c], 0));
-const transposed = (m) => Float64Array.from({ length: 36 }, (_, n) => m[6 * (n % 6) + Math.floor(n / 6)]);
-
-/** Solves such a system, the link with the fewest neighbours first: O(links) for chains and trees of contours. */
-function solved({ blocks, right }, fixed) {
-  const left = new Set(blocks.keys());
-  left.delete(fixed);
-  const done = [];
-  while (left.size) {
-    const k = [...left].reduce((best, i) => (blocks[i].size < blocks[best].size ? i : best));
-    left.delete(k);
-    const own = inverse(blocks[k].get(k));
-    const others = [...blocks[k].keys()].filter((i) => i !== k);
-    const shares = others.map((i) => product(blocks[i].get(k), own));
-    others.forEach((i, n) => {
-      const back = applied(shares[n], right[k]);
-      for (let r = 0; r < 6; r += 1) right[i][r] -= back[r];
-      for (const j of others) {
-        const by = product(shares[n], blocks[k].get(j));
-        if (!blocks[i].has(j)) blocks[i].set(j, new Float64Array(36));
-        const to = blocks[i].get(j);
-        for (let e = 0; e < 36; e += 1) to[e] -= by[e];
-      }
-      blocks[i].delete(k);
-    });
-    done.push({ k, own, shares, others });
-  }
-  const out = blocks.map(() => new Float64Array(6));
-  for (const { k, own, shares, others } of done.reverse()) {
-    out[k] = applied(own, right[k]);
-    others.forEach((i, n) => {
-      const back = applied(transposed(shares[n]), out[i]);
-      for (let r = 0; r < 6; r += 1) out[k][r] -= back[r];
-    });
-  }
-  return out;
+  return solved(rows);
 }
 
 /** Moves links by a step: each turns about its middle and shifts. */
 function moved(links, step) {
   return links.map((l, n) => {
-    const turn = times([...step[n].slice(0, 3)], 1 / REACH);
-    const shift = [...step[n].slice(3)];
+    const turn = times(step.slice(6 * n, 6 * n + 3), 1 / REACH);
+    const shift = step.slice(6 * n + 3, 6 * n + 6);
     if (turn.every((x) => x === 0) && shift.every((x) => x === 0)) return l;
     const middle = plus(l.middle, shift);
     return { axes: l.axes.map((v) => spun(v, turn)), at: plus(middle, spun(minus(l.at, l.middle), turn)), middle };
@@ -243,7 +174,7 @@ function pullable(scene, poses) {
   }
   const equations = (at) => [...holds.flatMap((h) => equationsOf(h, at)), ...tiesOf(scene, holds, at)];
   const gap = (list) => list.reduce((most, e) => Math.max(most, Math.abs(e.value)), 0);
-  const step = (list, firm, damping) => solved(blocksOf(list, (n) => (n < firm ? FIRM : 1), damping, links.length, scene.frame), scene.frame);
+  const step = (list, firm, damping) => stepFor(list, (n) => (n < firm ? FIRM : 1), damping, links.length, scene.frame);
   /** Closes the joints of some places; null where they do not. */
   const closed = (from) => {
     let at = from;

@@ -10,9 +10,6 @@ const byIdeas = () => found === page.ideas;
 /** What one of the list is called. */
 const noun = () => (byIdeas() ? "Idea" : "Variant");
 
-/** A count with groups of three: 25,761,436. */
-const grouped = (digits) => String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ",");
-
 /** Three significant digits, never in the form 1e+21 for what a reader would write out. */
 function short(x) {
   if (x === null || x === undefined) return "";
@@ -111,13 +108,8 @@ function changesOf(i) {
   return out.sort((a, b) => a.joint - b.joint);
 }
 
-/** The changes in a line, joints with the same change together. */
-function changeLine(i) {
-  const by = new Map();
-  for (const c of changesOf(i)) by.set(c.to, [...(by.get(c.to) || []), c.id]);
-  const parts = [...by].map(([to, ids]) => `${ids.join(", ")} → ${to}`);
-  return parts.length ? parts.join("; ") : "none: the original mechanism";
-}
+/** The changes in a line. */
+const changeLine = (i) => changesInWords(changesOf(i).map((c) => [c.id, c.to])) || "none: the original mechanism";
 
 /** What the text filter looks at. */
 function haystack(i) {

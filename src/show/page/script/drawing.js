@@ -1,16 +1,22 @@
 // A still drawing of the mechanism as it is, with the symbols of a variant put in.
 
-/** Number of the symbol that a choice puts at a joint of a drawing. */
-function symbolOf(state, kind, change) {
-  const { variable, choice, joint } = change;
-  const row = page.swaps[state][kind].find((r) => r[0] === variable && r[1] === choice && r[2] === joint);
-  return row ? row[3] : null;
+/** What a change puts at a joint of the scene of a state, or undefined. */
+function swapOf(state, { variable, choice, joint }) {
+  const n = page.swaps[state].findIndex((r) => r[0] === variable && r[1] === choice && r[2] === joint);
+  return page.scenes[state]?.swaps[n];
 }
 
-/** The elements of a symbol, fresh. */
-function symbol(number) {
-  const group = document.querySelector(`.store [data-symbol="${number}"]`);
-  return [...group.children].map((c) => c.cloneNode(true));
+/** The symbol of a swap as the first view has it. */
+function symbolOf(state, swap) {
+  const { symbols, view } = page.scenes[state];
+  return symbolAt(symbols[swap.symbol], swap.axes, view, [0, 0]);
+}
+
+/** Puts another class into a joint of a structural scheme. */
+function reclass(place, { classes, unloading }) {
+  for (const circle of place.querySelectorAll("circle")) circle.classList.add("changed");
+  place.querySelector("text").textContent = classes[1];
+  if (unloading) place.append(svgElement("circle", { class: "line new", r: 19.5 }));
 }
 
 const childNamed = (node, name) => [...node.children].find((c) => c.localName === name);
@@ -64,10 +70,11 @@ function dress(svg, state, kind, i) {
   const groups = (name) => new Map([...svg.querySelectorAll(`[${name}]`)].map((g) => [g.getAttribute(name), g]));
   const [symbols, names] = [groups("data-joint"), groups("data-joint-name")];
   for (const change of changes) {
-    const number = symbolOf(state, kind, change);
+    const swap = swapOf(state, change);
     const place = symbols.get(change.id);
-    if (number === null || !place) continue;
-    place.replaceChildren(...symbol(number));
+    if (!place) continue;
+    if (kind === "scheme") reclass(place, change);
+    else if (swap) place.replaceChildren(...symbolOf(state, swap));
     const label = names.get(change.id);
     if (label) label.firstElementChild.classList.add("changed");
   }

@@ -24,3 +24,20 @@ function svgElement(name, attributes, text) {
   if (text !== undefined) made.textContent = text;
   return made;
 }
+
+/** A count with groups of three: 25,761,436. */
+const grouped = (digits) => String(digits).replace(/\B(?=(\d{3})+(?!\d))/g, ",");
+
+/** Gives a file to the browser to save. */
+function saveFile(name, blob) {
+  const link = element("a", { download: name, href: URL.createObjectURL(blob) });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/** The changes in a line, joints with the same change together: pairs of a joint and what it becomes. */
+function changesInWords(pairs) {
+  const by = new Map();
+  for (const [joint, to] of pairs) by.set(to, [...(by.get(to) ?? []), joint]);
+  return [...by].map(([to, joints]) => `${joints.join(", ")} → ${to}`).join("; ");
+}

@@ -1,13 +1,4 @@
-'use strict';
 // A gripper as SVG elements, from pins and links.
-const SVG = 'http://www.w3.org/2000/svg';
-
-function element(name, attributes, inside) {
-  const e = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  for (const child of inside || []) e.append(child);
-  return e;
-}
 
 // Screen coordinates: y goes down.
 const flip = ([x, y]) => [x, -y];
@@ -40,19 +31,14 @@ function arrows(card, tips) {
   const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
   return moves.flatMap((move, n) => {
     const [x, y] = tips[n], v = move.map((c) => (c / fastest) * 13);
-    return Math.hypot(...v) < 1 ? [] : [element('path', { class: 'arrow', d: straight([x, y], [x + v[0], y + v[1]]) })];
+    return Math.hypot(...v) < 1 ? [] : [svgElement('path', { class: 'arrow', d: straight([x, y], [x + v[0], y + v[1]]) })];
   });
 }
 
 /** A gripper as it is drawn, or with its pins and tips elsewhere. */
 function gripper(card, title, changed, elsewhere) {
   const d = card.drawing;
-  if (!d) {
-    const note = document.createElement('p');
-    note.className = 'help';
-    note.textContent = 'Not in one plane: ozols draw shows it.';
-    return note;
-  }
+  if (!d) return element('p', { class: 'help' }, 'Not in one plane: ozols draw shows it.');
   const pose = elsewhere ? elsewhere.pose : new Array(3 * d.links.length).fill(0);
   const at = (link, i) => flip(placed(pose, link, d.pins[i]));
   const tips = (d.tips || []).map((t, n) => flip(placed(pose, d.jaws[n], t)));
@@ -64,47 +50,51 @@ function gripper(card, title, changed, elsewhere) {
   // Labels stand beside their pins, those on the right to the left of them.
   const margin = [changed ? 40 : 20, 20], size = [0, 1].map((k) => high[k] - low[k] + 2 * margin[k]);
   const box = [low[0] - margin[0], low[1] - margin[1], size[0], size[1]], centre = box[0] + size[0] / 2;
-  const out = [element('title', {}, [title])];
+  const out = [svgElement('title', {}, title)];
   d.links.forEach((of, l) => {
     if (l === d.frame) return;
     const jaw = d.jaws.indexOf(l);
     const points = [...of.map((i) => at(l, i)), ...rackPoints(d, pose, l), ...(tips[jaw] ? [tips[jaw]] : [])];
     if (points.length < 2) return;
     const kind = jaw >= 0 ? 'jaw' : l === d.driver ? 'driver' : '';
-    out.push(element('path', { class: 'link ' + kind, d: path(hull(points), points.length > 2) }));
+    out.push(svgElement('path', { class: 'link ' + kind, d: path(hull(points), points.length > 2) }));
   });
   // The part that is held.
   if (tips.length) {
     const middle = [0, 1].map((k) => tips.reduce((sum, t) => sum + t[k], 0) / tips.length);
     const radius = Math.hypot(tips[0][0] - middle[0], tips[0][1] - middle[1]);
-    out.push(element('circle', { class: 'part', cx: middle[0], cy: middle[1], r: radius }));
+    out.push(svgElement('circle', { class: 'part', cx: middle[0], cy: middle[1], r: radius }));
   }
   out.push(...gearsOf(d, pose));
   d.kinds.forEach((kind, i) => {
     const [x, y] = pins[i];
     if (kind === 'slide') out.push(...slideOf(d, pose, i, i === d.drive ? '' : ' idle'));
     else if (kind === 'slot') out.push(slotOf(d, pose, i));
-    else if (d.ends[i].includes(d.frame)) out.push(element('path', { class: 'ground', d: `M${x} ${y}l-5 8h10zM${x - 7} ${y + 8}h14` }));
+    else if (d.ends[i].includes(d.frame)) out.push(svgElement('path', { class: 'ground', d: `M${x} ${y}l-5 8h10zM${x - 7} ${y + 8}h14` }));
   });
   pins.forEach(([x, y], i) => {
-    const named = [element('title', {}, [d.names[i]])];
-    if (d.kinds[i] !== 'slide') out.push(element('circle', { class: 'pin', cx: x, cy: y, r: 2.6 }, named));
+    if (d.kinds[i] === 'slide') return;
+    const pin = svgElement('circle', { class: 'pin', cx: x, cy: y, r: 2.6 });
+    pin.append(svgElement('title', {}, d.names[i]));
+    out.push(pin);
   });
   if (card.closes && !elsewhere) {
     const [x, y] = pins[d.drive], s = card.closes;
     const [u, v] = flip(d.along[d.drive]), [left, up] = u < 0 ? [-v, u] : [v, -u];
     const beside = (k) => [x + 11 * (left + k * u), y + 11 * (up + k * v)];
-    out.push(element('path', { class: 'drive', d: d.slides ? straight(beside(-s), beside(s)) : round([x, y], 10, s) }));
+    out.push(svgElement('path', { class: 'drive', d: d.slides ? straight(beside(-s), beside(s)) : round([x, y], 10, s) }));
   }
   if (!card.drawn && !elsewhere) out.push(...arrows(card, tips));
   for (const [name, word] of changed || []) {
     const i = d.names.indexOf(name);
     if (i < 0) continue;
     const [x, y] = pins[i];
-    out.push(element('circle', { class: 'changed', cx: x, cy: y, r: 5.5 }));
+    out.push(svgElement('circle', { class: 'changed', cx: x, cy: y, r: 5.5 }));
     const right = x > centre;
-    const label = (below, words, kind) => element('text', { class: kind, x: right ? x - 7 : x + 7, y: y - 6 + below, 'text-anchor': right ? 'end' : 'start' }, [words]);
+    const label = (below, words, kind) => svgElement('text', { class: kind, x: right ? x - 7 : x + 7, y: y - 6 + below, 'text-anchor': right ? 'end' : 'start' }, words);
     out.push(label(0, word, ''), label(5.5, name, 'joint'));
   }
-  return element('svg', { class: 'gripper', viewBox: box.map((v) => v.toFixed(1)).join(' '), role: 'img' }, out);
+  const svg = svgElement('svg', { class: 'gripper', viewBox: box.map((v) => v.toFixed(1)).join(' '), role: 'img' });
+  svg.append(...out);
+  return svg;
 }

@@ -14,3 +14,25 @@ function hull(points) {
   };
   return half(sorted).concat(half(sorted.reverse()));
 }
+
+/** The solution of a square system, the right side in the last column, by Gauss, who passes over zeros; null where it is singular. */
+function solved(rows) {
+  const n = rows.length;
+  for (let k = 0; k < n; k += 1) {
+    let best = k;
+    for (let i = k + 1; i < n; i += 1) if (Math.abs(rows[i][k]) > Math.abs(rows[best][k])) best = i;
+    if (Math.abs(rows[best][k]) < 1e-9) return null;
+    [rows[k], rows[best]] = [rows[best], rows[k]];
+    for (let i = k + 1; i < n; i += 1) {
+      const f = rows[i][k] / rows[k][k];
+      if (f) for (let j = k; j <= n; j += 1) rows[i][j] -= f * rows[k][j];
+    }
+  }
+  const out = new Array(n).fill(0);
+  for (let k = n - 1; k >= 0; k -= 1) {
+    out[k] = rows[k][n];
+    for (let j = k + 1; j < n; j += 1) out[k] -= rows[k][j] * out[j];
+    out[k] /= rows[k][k];
+  }
+  return out;
+}

@@ -16,13 +16,6 @@ function wholeOf(svg) {
   return whole;
 }
 
-/** Gives a file to the browser to save. */
-function hand(name, blob) {
-  const link = element("a", { download: name, href: URL.createObjectURL(blob) });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-}
-
 /** Runs `use` with a whole picture that stands in the page, where it is not seen, so that it has its look. */
 function staged(svg, use) {
   const room = element("div", { class: "offstage", "aria-hidden": "true" });
@@ -47,7 +40,7 @@ function saveSvg(svg, name) {
     }
     return new XMLSerializer().serializeToString(whole);
   });
-  hand(`${name}.svg`, new Blob([text], { type: "image/svg+xml" }));
+  saveFile(`${name}.svg`, new Blob([text], { type: "image/svg+xml" }));
 }
 
 /** The outline of an element, and where its text stands. */
@@ -101,7 +94,7 @@ function savePng(svg, name) {
     on.fillStyle = getComputedStyle(document.body).backgroundColor;
     on.fillRect(0, 0, canvas.width, canvas.height);
     for (const part of whole.querySelectorAll("path,circle,rect,text")) if (!part.closest("defs")) paint(on, part);
-    canvas.toBlob((blob) => hand(`${name}.png`, blob));
+    canvas.toBlob((blob) => saveFile(`${name}.png`, blob));
   });
 }
 

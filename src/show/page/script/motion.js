@@ -1,22 +1,6 @@
 // How a gripper moves: its pins from open to closed, by Newton's method from pose to pose.
 const STEPS = 24;
 
-/** The solution of a square system, the right side in the last column; null where it is singular. */
-function solved(rows) {
-  const n = rows.length;
-  for (let k = 0; k < n; k += 1) {
-    let best = k;
-    for (let i = k + 1; i < n; i += 1) if (Math.abs(rows[i][k]) > Math.abs(rows[best][k])) best = i;
-    if (Math.abs(rows[best][k]) < 1e-9) return null;
-    [rows[k], rows[best]] = [rows[best], rows[k]];
-    for (let i = 0; i < n; i += 1) {
-      const f = i === k ? 0 : rows[i][k] / rows[k][k];
-      if (f) for (let j = k; j <= n; j += 1) rows[i][j] -= f * rows[k][j];
-    }
-  }
-  return rows.map((row, k) => row[n] / row[k]);
-}
-
 /** Where a drawn point of a link is in a pose: three numbers for each link, its shift and its turn about the origin. */
 function placed(pose, link, [x, y]) {
   const [dx, dy, t] = pose.slice(3 * link, 3 * link + 3);

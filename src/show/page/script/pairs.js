@@ -4,7 +4,7 @@
 function symbol(kind, d, pose, link, at, along, points) {
   const [x, y] = placed(pose, link, at), t = Math.atan2(along[1], along[0]) + pose[3 * link + 2], [c, s] = [Math.cos(t), Math.sin(t)];
   const put = ([u, v]) => flip([x + u * c - v * s, y + u * s + v * c]);
-  return element('path', { class: kind, d: points.map((line) => path(line.map(put), kind.startsWith('block'))).join('') });
+  return svgElement('path', { class: kind, d: points.map((line) => path(line.map(put), kind.startsWith('block'))).join('') });
 }
 
 /** A slide: its guide on the frame, or on the first of its links, and the block that runs there. */
@@ -43,7 +43,7 @@ function gearsOf(d, pose) {
   return d.gears.flatMap((g) => g.joints.map((i, k) => {
     if (d.kinds[i] === 'slide') return symbol('gear', d, pose, g.links[k], g.pitch, d.along[i], [[[-20, 0], [20, 0]]]);
     const [x, y] = flip(placed(pose, g.carrier, d.pins[i])), r = pitchRadius(d, g, i);
-    if (g.thread) return element('path', { class: 'gear', d: path([[x, y], flip(placed(pose, g.links[1], g.pitch))]) });
-    return element('circle', { class: 'gear', cx: x, cy: y, r });
+    if (g.thread) return svgElement('path', { class: 'gear', d: path([[x, y], flip(placed(pose, g.links[1], g.pitch))]) });
+    return svgElement('circle', { class: 'gear', cx: x, cy: y, r });
   }));
 }

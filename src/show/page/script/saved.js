@@ -2,11 +2,10 @@
 
 /** A link that saves a text under a name. */
 function saving(name, type, content) {
-  const link = text('a', name, { download: name, href: '#' });
-  link.addEventListener('click', () => {
-    const url = URL.createObjectURL(new Blob([content()], { type }));
-    link.href = url;
-    setTimeout(() => URL.revokeObjectURL(url), 10000);
+  const link = element('a', { download: name, href: '#' }, name);
+  link.addEventListener('click', (event) => {
+    event.preventDefault();
+    saveFile(name, new Blob([content()], { type }));
   });
   return link;
 }
@@ -24,11 +23,9 @@ function alone(picture) {
 
 /** Links to the mechanism's file and to its drawing as it stands. */
 function savedFiles(c, figure) {
-  const row = document.createElement('p');
-  row.className = 'saved';
-  row.append('Save ');
-  if (c.mechanism) row.append(saving(`${c.id}.toml`, 'application/toml', () => c.mechanism), ', the mechanism file; ');
-  if (c.mjcf) row.append(saving(`${c.id}.xml`, 'application/xml', () => c.mjcf), ', the same for MuJoCo; ');
-  row.append(saving(`${c.id}.svg`, 'image/svg+xml', () => alone(figure.querySelector('svg'))), ', the drawing.');
-  return row;
+  const svg = () => alone(figure.querySelector('svg'));
+  return element('p', { class: 'saved' }, 'Save ',
+    ...(c.mechanism ? [saving(`${c.id}.toml`, 'application/toml', () => c.mechanism), ', the mechanism file; '] : []),
+    ...(c.mjcf ? [saving(`${c.id}.xml`, 'application/xml', () => c.mjcf), ', the same for MuJoCo; '] : []),
+    saving(`${c.id}.svg`, 'image/svg+xml', svg), ', the drawing.');
 }

@@ -39,7 +39,7 @@ function shape(part, points, at) {
   if (part.form === "ball") return svgElement("circle", { class: part.class, cx: at[0] + points[0][0], cy: at[1] + points[0][1], r: part.radius });
   if (part.form === "face" && turning(points) > -0.05) return null;
   const round = part.form === "hull" ? hull(part.radius ? points.flatMap((p) => disc(p, part.radius)) : points) : points;
-  return svgElement("path", { class: part.class, d: path(round.map((p) => plus(p, at)), part.form !== "line" && !part.form.startsWith("along") || part.form.endsWith("loop")) });
+  return svgElement("path", { class: part.class, d: path(round.map((p) => plus(p, at)), part.form !== "line") });
 }
 
 /** The head of an arrow. */
@@ -101,9 +101,9 @@ function symbolAt(pieces, axes, view, at) {
   const paper = axes.map((v) => [dot(view[0], v), -dot(view[1], v)]);
   for (const part of pieces) {
     if (ahead < part.seen[0] || ahead >= part.seen[1]) continue;
-    const along = part.form.startsWith("along") ? "xyz".indexOf(part.form[6]) : -1;
-    if (along >= 0 && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
-    const corner = along >= 0
+    const { along } = part;
+    if (along !== null && Math.abs(dot(axes[along], view[2])) >= END_ON) continue;
+    const corner = along !== null
       ? (p) => plus(times(paper[along], p[0]), times(upperSide(paper[along]), p[1]))
       : (p) => (p.length === 2 ? p : p.map((x, n) => times(paper[n], x)).reduce(plus));
     const drawn = shape(part, part.points.map(corner), at);

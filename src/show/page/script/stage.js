@@ -37,9 +37,9 @@ function crop(svg, scene) {
 const inShort = ({ mobility, redundant }) => `σ = ${redundant}, W = ${mobility}`;
 
 /** What stands at the joints of a scene instead, by joint. */
-function swapsOf(scene, state, changes) {
-  const rows = changes.map((c) => symbolOf(state, "space", c)).filter((n) => n !== null);
-  return new Map(rows.map((n) => [scene.swaps[n].joint, scene.swaps[n]]));
+function swapsOf(state, changes) {
+  const swaps = changes.map((c) => swapOf(state, c)).filter(Boolean);
+  return new Map(swaps.map((swap) => [swap.joint, swap]));
 }
 
 /** Puts a picture into a pane. */
@@ -61,7 +61,7 @@ function draw(i) {
     const changes = changesOf(i);
     if (moves(kind)) entitle(svg, state, i, changes);
     else dress(svg, state, kind, i);
-    const swaps = moves(kind) ? swapsOf(scene, state, changes) : null;
+    const swaps = moves(kind) ? swapsOf(state, changes) : null;
     panes.push({ id: "drawing", svg, swaps, words: `${noun()} ${i + 1}: ${inShort(figures(i, state))}` });
   }
   for (const pane of panes) setPicture(pane.id, pane.svg, pane.words);

@@ -39,27 +39,16 @@ let kept = null;
 /** Figures of a gripper, beside those of the one that is kept. */
 function figureTable(c) {
   const own = figuresOf(c);
-  if (!kept || kept === c) {
-    const list = document.createElement('dl');
-    for (const [name, value] of own) list.append(text('dt', name), text('dd', value));
-    return list;
-  }
+  if (!kept || kept === c) return element('dl', {}, ...own.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
   const other = new Map(figuresOf(kept)), mine = new Map(own), names = [...new Set([...mine.keys(), ...other.keys()])];
-  const table = document.createElement('table'), head = table.createTHead().insertRow(), body = table.createTBody();
-  head.append(text('th', ''), text('th', titleOf(c), { scope: 'col' }), text('th', titleOf(kept), { scope: 'col' }));
-  for (const name of names) {
-    const row = body.insertRow();
-    row.append(text('th', name, { scope: 'row' }), text('td', mine.get(name) || '–'), text('td', other.get(name) || '–'));
-  }
-  const room = document.createElement('div');
-  room.classList.add('wide', 'beside');
-  room.append(table);
-  return room;
+  const head = ['', titleOf(c), titleOf(kept)].map((words) => element('th', { scope: words ? 'col' : null }, words));
+  const rows = names.map((name) => element('tr', {}, element('th', { scope: 'row' }, name), element('td', {}, mine.get(name) || '–'), element('td', {}, other.get(name) || '–')));
+  return element('div', { class: 'wide beside' }, element('table', {}, element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...rows)));
 }
 
 /** Keeps a gripper beside those that are chosen next, or lets it go. */
 function keeping(c, anew) {
-  const button = text('button', kept === c ? 'Let it go' : 'Keep to compare', { type: 'button' });
+  const button = element('button', { type: 'button' }, kept === c ? 'Let it go' : 'Keep to compare');
   button.addEventListener('click', () => {
     kept = kept === c ? null : c;
     anew();
@@ -74,16 +63,14 @@ function forceChart(c, frames) {
   const forces = widths.slice(1).map((w, i) => (2 * step) / jaws / Math.abs(w - widths[i])), most = Math.max(...forces);
   const at = (f, i) => [8 + (204 * i) / (forces.length - 1), 52 - (44 * f) / most];
   const words = `Jaw force from open to closed: ${short(c.force_min)} to ${short(c.force_max)} ${unit(c)}`;
-  const lines = [element('path', { class: 'guide', d: path([[8, 52], [212, 52]]) }), element('path', { class: 'drive', d: path(forces.map(at)) })];
-  const chart = element('svg', { class: 'gripper chart', viewBox: '0 0 220 60', role: 'img' }, [element('title', {}, [words]), ...lines]);
-  const figure = document.createElement('figure');
-  figure.append(chart, text('figcaption', words, { class: 'help' }));
-  return figure;
+  const chart = svgElement('svg', { class: 'gripper chart', viewBox: '0 0 220 60', role: 'img' });
+  chart.append(svgElement('title', {}, words), svgElement('path', { class: 'guide', d: path([[8, 52], [212, 52]]) }), svgElement('path', { class: 'drive', d: path(forces.map(at)) }));
+  return element('figure', {}, chart, element('figcaption', { class: 'help' }, words));
 }
 
 /** The drawing of what is chosen, with how far it is open. */
 function sight(c) {
-  const figure = document.createElement('div'), frames = framesOf(c);
+  const figure = element('div'), frames = framesOf(c);
   let idea = null, frame;
   const draw = () => {
     const title = `${titleOf(c)}${idea ? ', idea ' + idea.place : ''}`;
@@ -94,76 +81,67 @@ function sight(c) {
   draw();
   if (frames.length > 1) {
     const drawn = frames.findIndex((f) => f.pins === c.drawing.pins);
-    const range = text('input', '', { type: 'range', min: 0, max: frames.length - 1, value: drawn, 'aria-label': 'From open to closed' });
+    const range = element('input', { type: 'range', min: 0, max: frames.length - 1, value: drawn, 'aria-label': 'From open to closed' });
     range.addEventListener('input', () => {
       frame = Number(range.value) === drawn ? undefined : frames[range.value];
       draw();
     });
-    const label = document.createElement('label');
-    label.className = 'stroke';
-    label.append('open', range, 'closed');
-    figure.append(label, forceChart(c, frames));
+    figure.append(element('label', { class: 'stroke' }, 'open', range, 'closed'), forceChart(c, frames));
   }
   return { figure, show: (chosen) => { idea = chosen; draw(); } };
 }
 
 /** The cheapest ideas, of which one is drawn when it is picked. */
 function ideaTable(c, pick) {
-  const table = document.createElement('table'), body = document.createElement('tbody');
-  const top = table.createTHead().insertRow();
-  for (const name of ['', 'cost', 'variants', 'changes']) top.append(text('th', name, name && name !== 'changes' ? { class: 'n' } : {}));
-  for (const idea of c.ideas) {
-    const row = body.insertRow();
-    row.tabIndex = 0;
-    row.append(text('td', idea.place), text('td', short(idea.cost), { class: 'n' }), text('td', least(c) + grouped(idea.variants), { class: 'n' }), text('td', idea.changes));
+  const number = { class: 'n' };
+  const head = [['', {}], ['cost', number], ['variants', number], ['changes', {}]].map(([name, look]) => element('th', look, name));
+  const rows = c.ideas.map((idea) => {
+    const row = element('tr', { tabindex: 0 }, element('td', {}, idea.place), element('td', number, short(idea.cost)),
+      element('td', number, least(c) + grouped(idea.variants)), element('td', {}, ...unbroken(changesInWords(changesOf(idea)))));
     const chosen = () => {
-      for (const other of body.rows) other.setAttribute('aria-selected', other === row);
+      for (const other of rows) other.setAttribute('aria-selected', other === row);
       pick(idea);
     };
     row.addEventListener('click', chosen);
     row.addEventListener('keydown', (e) => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); chosen(); } });
-  }
-  table.append(body);
-  const room = document.createElement('div');
-  room.className = 'wide ideas';
-  room.append(table);
-  return room;
+    return row;
+  });
+  return element('div', { class: 'wide ideas' }, element('table', {}, element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...rows)));
 }
 
 /** What the dialog says of a gripper. */
 function tell(c) {
-  const dialog = by('chosen'), head = document.createElement('header');
-  const close = text('button', 'Close', { type: 'button' });
+  const dialog = byId('chosen');
+  const help = (words) => element('p', { class: 'help' }, words);
+  const close = element('button', { type: 'button' }, 'Close');
   close.addEventListener('click', () => dialog.close());
-  const buttons = document.createElement('div');
-  buttons.append(keeping(c, () => { tell(c); dialog.querySelector('button').focus(); }), ' ', close);
-  head.append(text('h2', titleOf(c), { id: 'chosen-name' }), buttons);
-  const { figure, show } = sight(c), two = document.createElement('div');
-  two.className = 'two';
-  two.append(figure, figureTable(c));
-  if (kept && kept !== c) figure.append(text('p', `Compared with ${titleOf(kept)}:`, { class: 'help' }), gripper(kept, titleOf(kept)));
-  dialog.replaceChildren(head, two);
-  const commands = text('pre', '');
+  const keep = keeping(c, () => { tell(c); dialog.querySelector('button').focus(); });
+  const { figure, show } = sight(c);
+  if (kept && kept !== c) figure.append(help(`Compared with ${titleOf(kept)}:`), gripper(kept, titleOf(kept)));
+  dialog.replaceChildren(
+    element('header', {}, element('h2', { id: 'chosen-name' }, titleOf(c)), element('div', {}, keep, ' ', close)),
+    element('div', { class: 'two' }, figure, figureTable(c)));
+  const commands = element('pre');
   const command = (idea) => {
     const k = idea ? ` --idea ${idea.place}` : '';
     commands.textContent = `ozols catalog export ${data.file} ${c.id}${k} -o gripper.toml\nozols studio gripper.toml\nozols report gripper.toml -o gripper.html`;
   };
   command(null);
   if (c.ideas.length) {
-    dialog.append(
-      text('h3', 'Redesigns without redundant constraints, symmetric ones first'),
-      text('p', 'Each represents all variants that distribute the same freedoms among joints in series; choose one to see the redesign.', { class: 'help' }),
-      ideaTable(c, (idea) => { show(idea); command(idea); }),
-    );
     const types = [...new Set(c.ideas.flatMap(changesOf).map(([, to]) => to))].filter((to) => packed.hardware[to]);
-    dialog.append(text('p', `Hardware: ${types.map((to) => `${to}: ${packed.hardware[to]}`).join('; ')}.`, { class: 'help' }));
+    dialog.append(
+      element('h3', {}, 'Redesigns without redundant constraints, symmetric ones first'),
+      help('Each represents all variants that distribute the same freedoms among joints in series; choose one to see the redesign.'),
+      ideaTable(c, (idea) => { show(idea); command(idea); }),
+      help(`Hardware: ${types.map((to) => `${to}: ${packed.hardware[to]}`).join('; ')}.`),
+    );
   }
-  dialog.append(text('h3', 'Go on'), commands);
+  dialog.append(element('h3', {}, 'Go on'), commands);
   if (c.drawing) dialog.append(savedFiles(c, figure));
 }
 
 async function choose(c, from) {
-  const dialog = by('chosen');
+  const dialog = byId('chosen');
   rest();
   await complete(c);
   tell(c);

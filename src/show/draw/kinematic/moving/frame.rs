@@ -39,35 +39,6 @@ pub(in crate::draw::kinematic) struct LinkLine {
     pub(in crate::draw::kinematic) ends: [Vector; 2],
 }
 
-impl MovingPicture {
-    /// Every point of it that can move.
-    pub(in crate::draw::kinematic) fn all(&mut self) -> impl Iterator<Item = &mut Point> {
-        let bodies = self.bodies.iter_mut().flat_map(|(_, b)| &mut b.points);
-        let lines = self.lines.iter_mut().flat_map(|(_, ends)| ends);
-        let circles = self.circles.iter_mut().flatten();
-        let points = self.points.iter_mut().chain(&mut self.at);
-        points.chain(bodies).chain(lines).chain(circles)
-    }
-
-    /// Everything but the symbols of joints.
-    pub(in crate::draw::kinematic) fn draw(&self, of: &Kinematic<'_>, s: &mut Sheet) {
-        for (l, body) in &self.bodies {
-            if body.points.len() > 1 {
-                s.path(&of.look(*l, body), &polyline(&body.points, body.plate));
-            }
-        }
-        for &(class, [a, b]) in &self.lines {
-            s.line(class, a, b);
-        }
-        for c in &self.circles {
-            s.path("fine pitch", &polyline(c, true));
-        }
-        for &p in &self.points {
-            draw_mark(s, p);
-        }
-    }
-}
-
 impl Kinematic<'_> {
     /// The points of a link that its shape goes through.
     pub(in crate::draw::kinematic) fn points_in_space(&self, link: usize) -> Vec<Vector> {
@@ -144,46 +115,88 @@ impl Kinematic<'_> {
         (0..self.links.len()).filter_map(one).collect()
     }
 
-    /// Where the joints are in a pose, with their frames.
-    pub(in crate::draw::kinematic) fn frame(
+    /// The shape of a link at the pose of the file.
+    pub(in crate::draw::kinematic) fn body(&self, row: usize) -> Body {
+        self.body_in(row, |p| p)
+    }
+
+    /// The shape of a link where a pose has carried it.
+    fn body_in(&self, row: usize, carried: impl Fn(Vector) -> Vector) -> Body {
+        let flat = |p| self.projection.flat(carried(p));
+        if let Some(arc) = self.arc_in_space(row) {
+            return Body {
+                points: arc.into_iter().map(flat).collect(),
+                plate: false,
+            };
+        }
+        let facet = self.facets.get(row).cloned().flatten();
+        let corners = facet.unwrap_or_else(|| self.points_in_space(row));
+        let flat: Vec<Point> = corners.into_iter().map(flat).collect();
+        Body::new(&flat).bowed(self.bows[row])
+    }
+
+    /// What is seen in a pose; at that of the file where none is given.
+    pub(in crate::draw::kinematic) fn picture(
         &self,
-        carried: &Carried<'_>,
+        pose: Option<&Carried<'_>>,
         lines: &[LinkLine],
     ) -> MovingPicture {
-        let flat = |p: Vector| self.projection.flat(p);
-        let places: Vec<JointInSpace> = (0..self.spots.len())
-            .map(|i| {
-                let (rides, guides) = self.carriers(i);
-                carried.place(rides, guides, &self.places[i])
-            })
-            .collect();
-        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
-        let body = |l: usize| {
-            let link = self.links[l].0;
-            let there = |p| carried.point(link, p);
-            if let Some(made) = self.arc(l, there).or_else(|| self.facet(l, there)) {
-                return (l, made);
-            }
-            let points = self.points_in_space(l).into_iter();
-            let points: Vec<Point> = points.map(|p| flat(carried.point(link, p))).collect();
-            (l, Body::new(&points).bowed(self.bows[l]))
+        let carried = |link, p| pose.map_or(p, |c| c.point(link, p));
+        let flat = |link, p| self.projection.flat(carried(link, p));
+        let place = |(i, own): (usize, &JointInSpace)| {
+            let (rides, guides) = self.carriers(i);
+            pose.map_or_else(|| own.clone(), |c| c.place(rides, guides, own))
         };
-        let on_paper = |l: &LinkLine| (l.class, l.ends.map(|p| flat(carried.point(l.link, p))));
-        let m = self.subject.mechanism;
+        let places: Vec<JointInSpace> = self.places.iter().enumerate().map(place).collect();
+        let moving = (0..self.links.len()).filter(|&l| !self.is_frame(self.links[l].0));
+        let body = |l: usize| (l, self.body_in(l, |p| carried(self.links[l].0, p)));
+        let on_paper = |l: &LinkLine| (l.class, l.ends.map(|p| flat(l.link, p)));
+        let couplings = self.subject.mechanism.couplings_in(self.subject.state);
         MovingPicture {
-            points: self
-                .points
+            points: self.points.iter().map(|p| flat(p.link, p.place)).collect(),
+            at: places
                 .iter()
-                .map(|p| flat(carried.point(p.link, p.place)))
+                .map(|p| self.projection.flat(p.point))
                 .collect(),
-            at: places.iter().map(|p| flat(p.point)).collect(),
             bodies: moving.map(body).collect(),
             lines: lines.iter().map(on_paper).collect(),
-            circles: m
-                .couplings_in(self.subject.state)
+            circles: couplings
                 .flat_map(|c| self.pitch_circles(c, &places))
                 .collect(),
             places,
+        }
+    }
+
+    /// Draws everything but the symbols of joints; parts that are `named` stand in groups that say what each is.
+    pub(in crate::draw::kinematic) fn draw_picture(
+        &self,
+        sheet: &mut Sheet,
+        picture: &MovingPicture,
+        named: bool,
+    ) {
+        for (l, body) in &picture.bodies {
+            let (look, d) = (self.look(*l, body), polyline(&body.points, body.plate));
+            let id = &self.subject.mechanism.links[self.links[*l].0].id;
+            match body.points.len() {
+                0 | 1 => {}
+                _ if named => sheet.group("data-link", id, [0.0; 2], |s| {
+                    s.path_with_tip(&look, &d, &format!("link {id}"));
+                }),
+                _ => sheet.path(&look, &d),
+            }
+        }
+        for &(class, [a, b]) in &picture.lines {
+            sheet.line(class, a, b);
+        }
+        for c in &picture.circles {
+            sheet.path("fine pitch", &polyline(c, true));
+        }
+        for (marked, &p) in self.points.iter().zip(&picture.points) {
+            if named {
+                sheet.group("data-point", &marked.id, [0.0; 2], |s| draw_mark(s, p));
+            } else {
+                draw_mark(sheet, p);
+            }
         }
     }
 }

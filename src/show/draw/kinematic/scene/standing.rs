@@ -1,15 +1,17 @@
 //! What stands on the links of a scheme in space, and what a redesign puts there.
 
-use crate::draw::kinematic::scene::part::{below, flat, paper, part};
+use crate::draw::kinematic::scene::part::below;
 use crate::draw::kinematic::scene::{Scene, fine, pixels};
 use crate::draw::kinematic::{Kinematic, body};
-use crate::draw::place::projection::{self, Vector, View, add, cross, dot, norm, scale, sub};
+use crate::draw::place::projection::{
+    self, JointInSpace, Vector, View, add, cross, dot, norm, scale, sub,
+};
+use crate::draw::sheet::Shape;
 use crate::draw::subject::Mark;
 use crate::draw::symbol::ground::Ground;
+use crate::draw::symbol::pieces::Piece;
 use crate::draw::symbol::placed::{self, Swap, Symbol, one_place};
-use crate::draw::symbol::symbols;
 use crate::geom::vector::{X, Y, Z};
-use crate::model::joint_type::JointType;
 use crate::model::mechanism::JointId;
 use serde_json::{Value, json};
 
@@ -96,7 +98,8 @@ impl Kinematic<'_> {
     fn add_points(&self, out: &mut Scene) {
         for p in &self.points {
             let corners = body::corners([0.0; 2]);
-            let symbol = out.symbol(vec![paper("ink", &corners, true)]);
+            let mark = Shape::path("ink", corners.to_vec(), true);
+            let symbol = out.symbol(vec![Piece::on_paper(&mark)]);
             let row = self.row(p.link);
             let mut point = self.standing(p.place, [row; 2], symbol);
             point["id"] = json!(p.id);
@@ -110,7 +113,7 @@ impl Kinematic<'_> {
             let spot = &self.spots[i];
             let mark = self.subject.joint_mark(spot.joint);
             let of = &m.joints[spot.joint].joint_type;
-            let symbol = out.symbol(self.parts(spot.joint, of, &spot.symbol, mark));
+            let symbol = out.symbol(spot.symbol.pieces(mark));
             let (rides, guides) = self.carriers(i);
             let place = &self.places[i];
             let links = [rides, guides].map(|l| self.row(l));
@@ -139,7 +142,8 @@ impl Kinematic<'_> {
         };
         let frame = self.row(self.subject.mechanism.frame());
         let place = self.places[i].point;
-        let symbol = out.symbol(below(self.spots[i].symbol.reach() + 6.0));
+        let shapes = below(self.spots[i].symbol.reach() + 6.0);
+        let symbol = out.symbol(shapes.iter().map(Piece::on_paper).collect());
         let mut below = self.standing(place, [frame; 2], symbol);
         below["turned"] = json!(true);
         out.joints.push(below);
@@ -170,19 +174,19 @@ impl Kinematic<'_> {
         })
     }
 
-    /// The pieces of a joint's symbol, with what stands round it.
-    pub(in crate::draw::kinematic) fn parts(
-        &self,
-        joint: JointId,
-        of: &JointType,
-        symbol: &Symbol,
-        mark: Mark,
-    ) -> Vec<Value> {
-        let (below, above) = symbol.round(self.subject, joint, mark);
-        let own = [symbols::pieces(of), symbol.arrow()].concat();
-        let own = own.iter().map(|p| part(p, mark.class(), symbol.size));
-        let parts = below.iter().map(flat).chain(own);
-        parts.chain(above.iter().map(flat)).collect()
+    /// Makes room for what a swap puts at a joint, and returns that with the number of the joint's spot and its axes; `None` if
+    /// the joint is not drawn.
+    pub(in crate::draw::kinematic) fn make_room(
+        &mut self,
+        swap: &Swap<'_>,
+    ) -> Option<(usize, Symbol, JointInSpace)> {
+        let i = self.spots.iter().position(|s| s.joint == swap.joint)?;
+        let place = projection::turned(&swap.option.frame);
+        let of = &swap.option.joint_type;
+        let symbol = self.symbol_of(i, of, &place);
+        let spot = &mut self.spots[i];
+        spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
+        Some((i, symbol, place))
     }
 
     /// What each swap puts into a scene whose joints begin with the points of interest; room is made for all of them.
@@ -194,24 +198,14 @@ impl Kinematic<'_> {
         let order = self.outer_first();
         let mut out = Vec::new();
         for swap in swaps {
-            let own = |i: &usize| self.spots[*i].joint == swap.joint;
-            let Some(n) = order.iter().position(own) else {
+            let Some((i, symbol, place)) = self.make_room(swap) else {
                 continue;
             };
-            let i = order[n];
-            let (place, of) = (
-                projection::turned(&swap.option.frame),
-                &swap.option.joint_type,
-            );
-            let (view, size) = (&self.projection.view, self.spots[i].symbol.size);
-            let slide = self.spots[i].symbol.slide;
-            let symbol = Symbol::new(self.subject, swap.joint, of, &place, view, size, slide);
-            let mut parts = self.parts(swap.joint, of, &symbol, Mark::Changed);
+            let mut parts = symbol.pieces(Mark::Changed);
             if swap.unloading {
-                parts.push(flat(&placed::ring(symbol.reach())));
+                parts.push(Piece::on_paper(&placed::ring(symbol.reach())));
             }
-            let spot = &mut self.spots[i];
-            spot.rect = spot.rect.with(&symbol.room.moved(spot.at));
+            let n = order.iter().position(|&k| k == i).unwrap_or_default();
             let axes = [place.x, place.y, place.z].map(fine);
             out.push(json!({
                 "joint": self.points.len() + n,

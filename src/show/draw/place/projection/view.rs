@@ -1,6 +1,6 @@
 //! Sides to look from: those that are asked for by name, and those that are chosen from.
 
-use crate::geom::vector::{Vector, cross, dot, length as norm, scale, sub};
+use crate::geom::vector::{Vector, X, Y, Z, cross, dot, length as norm, scale, sub};
 use crate::svg::plane::Point;
 
 /// From where a kinematic scheme is looked at, as far as that is asked for; the rest is chosen.
@@ -46,13 +46,10 @@ impl Sight {
         if let Some(view) = all.find(|v| norm(sub(v.toward, toward)) < FLAT) {
             return Some(self.turned(view));
         }
-        let name = if toward
-            .iter()
-            .all(|x| (x.abs() - toward[0].abs()).abs() < FLAT)
-        {
-            "isometric"
-        } else {
-            "seen from the side asked for"
+        let equal = |x: &f64| (x.abs() - toward[0].abs()).abs() < FLAT;
+        let name = match toward.iter().all(equal) {
+            true => "isometric",
+            false => "seen from the side asked for",
         };
         Some(self.turned(upright(toward, name)))
     }
@@ -75,29 +72,19 @@ impl Sight {
 
 /// The views to choose from.
 pub(super) fn views() -> Vec<View> {
-    let mut out = vec![
-        View {
-            right: [1.0, 0.0, 0.0],
-            up: [0.0, 1.0, 0.0],
-            toward: [0.0, 0.0, 1.0],
-            name: "seen along z",
-            axis: true,
-        },
-        View {
-            right: [1.0, 0.0, 0.0],
-            up: [0.0, 0.0, 1.0],
-            toward: [0.0, -1.0, 0.0],
-            name: "seen along y",
-            axis: true,
-        },
-        View {
-            right: [0.0, 1.0, 0.0],
-            up: [0.0, 0.0, 1.0],
-            toward: [1.0, 0.0, 0.0],
-            name: "seen along x",
-            axis: true,
-        },
+    let axes = [
+        ("seen along z", X, Y, Z),
+        ("seen along y", X, Z, scale(Y, -1.0)),
+        ("seen along x", Y, Z, X),
     ];
+    let along = |(name, right, up, toward)| View {
+        right,
+        up,
+        toward,
+        name,
+        axis: true,
+    };
+    let mut out: Vec<View> = axes.map(along).to_vec();
     let iso = (1.0f64 / 3.0).sqrt().asin().to_degrees();
     let slanted = [(45.0, iso), (-45.0, iso), (135.0, iso), (-135.0, iso)];
     let turns = (0..24).map(|n| 15.0 * f64::from(n) - 172.5);
@@ -123,10 +110,7 @@ pub(crate) fn along_z() -> View {
 
 /// Towards a direction, with z going up, or y where the direction is z.
 fn upright(toward: Vector, name: &'static str) -> View {
-    let right = unit(
-        cross([0.0, 0.0, 1.0], toward),
-        [toward[2].signum(), 0.0, 0.0],
-    );
+    let right = unit(cross(Z, toward), scale(X, toward[2].signum()));
     View {
         right,
         up: cross(toward, right),
@@ -143,12 +127,7 @@ pub(super) fn face_on(normal: Vector) -> View {
         return view;
     }
     let side = dot(normal, [1.0, -1.1, 1.2]);
-    let toward = if side < 0.0 {
-        scale(normal, -1.0)
-    } else {
-        normal
-    };
-    upright(toward, "seen face-on")
+    upright(scale(normal, side.signum()), "seen face-on")
 }
 
 pub(super) fn unit(a: Vector, or: Vector) -> Vector {

@@ -1,26 +1,26 @@
 //! Where labels go so that none touches another or a symbol.
 
-use crate::svg::plane::{Point, Rect, norm, segments_cross, sub};
-use crate::svg::text::width;
+use super::plane::{Point, Rect, norm, segments_cross, sub};
+use super::text::width;
 
 /// A label that wants a place.
 #[derive(Clone, Debug)]
-pub(in crate::draw) struct Wish {
+pub struct Wish {
     /// Its width.
-    pub(in crate::draw) width: f64,
+    pub width: f64,
     /// Its height.
-    pub(in crate::draw) height: f64,
+    pub height: f64,
     /// What it names.
-    pub(in crate::draw) anchor: Point,
+    pub anchor: Point,
     /// How far from the anchor it must stay.
-    pub(in crate::draw) clear: f64,
+    pub clear: f64,
     /// Middles to try first, with their costs.
-    pub(in crate::draw) first: Vec<(Point, f64)>,
+    pub first: Vec<(Point, f64)>,
 }
 
 impl Wish {
     /// Returns the wish of a text for a place so far from what it names at least.
-    pub(in crate::draw) fn of(text: &str, size: f64, anchor: Point, clear: f64) -> Wish {
+    pub fn of(text: &str, size: f64, anchor: Point, clear: f64) -> Wish {
         Wish {
             width: width(text, size),
             height: size + 1.0,
@@ -33,22 +33,22 @@ impl Wish {
 
 /// Where a label went.
 #[derive(Clone, Debug)]
-pub(in crate::draw) struct LabelPlace {
+pub struct LabelPlace {
     /// Its box.
-    pub(in crate::draw) rect: Rect,
+    pub rect: Rect,
     /// A line to what it names, where that is not near.
-    pub(in crate::draw) leader: Option<(Point, Point)>,
+    pub leader: Option<(Point, Point)>,
 }
 
 /// A line that labels had better not lie on, and how bad that is.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::draw) struct AvoidedLine {
-    pub(in crate::draw) ends: (Point, Point),
-    pub(in crate::draw) weight: f64,
+pub struct AvoidedLine {
+    pub ends: (Point, Point),
+    pub weight: f64,
 }
 
 /// The weight of a line that no label may lie on while there is room anywhere.
-pub(in crate::draw) const CROSSED: f64 = 1000.0;
+pub const CROSSED: f64 = 1000.0;
 /// How bad a leader across a label or a symbol is.
 const ON_LABEL: f64 = 100.0;
 /// The most that a line counts against a leader across it.
@@ -60,11 +60,7 @@ const NEAR: f64 = 9.0;
 const ANGLES: usize = 24;
 
 /// Places the labels one by one; none touches what is taken or one placed before. Each joins what is taken.
-pub(in crate::draw) fn place(
-    wishes: &[Wish],
-    taken: &mut Vec<Rect>,
-    lines: &[AvoidedLine],
-) -> Vec<LabelPlace> {
+pub fn place(wishes: &[Wish], taken: &mut Vec<Rect>, lines: &[AvoidedLine]) -> Vec<LabelPlace> {
     let mut lines = lines.to_vec();
     let mut out = Vec::new();
     for wish in wishes {
@@ -82,19 +78,14 @@ pub(in crate::draw) fn place(
 }
 
 fn best(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
-    let mut best: Option<(f64, LabelPlace)> = None;
-    let mut offer = |cost: f64, place: LabelPlace| {
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, place));
-        }
-    };
-    for &(middle, cost) in &wish.first {
+    let cheaper = |a: &(f64, LabelPlace), b: &(f64, LabelPlace)| a.0.total_cmp(&b.0);
+    let first = wish.first.iter().map(|&(middle, cost)| {
         let rect = Rect::around(middle, wish.width, wish.height);
-        if free(&rect, taken) {
-            let place = LabelPlace { rect, leader: None };
-            offer(cost + crossed(&rect, lines), place);
-        }
-    }
+        let cost = cost + crossed(&rect, lines);
+        (cost, LabelPlace { rect, leader: None })
+    });
+    let first = first.filter(|(_, place)| free(&place.rect, taken));
+    let mut best = first.min_by(cheaper);
     let mut away = wish.clear + GAP + 0.5;
     let bounds = taken
         .iter()
@@ -109,39 +100,30 @@ fn best(wish: &Wish, taken: &[Rect], lines: &[AvoidedLine]) -> LabelPlace {
         if best.as_ref().is_some_and(|(least, _)| *least <= ring) {
             break;
         }
-        let mut offers = Vec::new();
-        for step in 0..ANGLES {
+        let tried = (0..ANGLES).filter_map(|step| {
             let angle = std::f64::consts::TAU * step as f64 / ANGLES as f64;
             let rect = beside(wish, angle, away);
             if !free(&rect, taken) {
-                continue;
+                return None;
             }
             // level and upright places read best
             let slant = 0.25 * (2.0 * angle).sin().abs() + 0.05 * (1.0 - angle.cos());
-            let mut cost = ring + slant + crossed(&rect, lines);
             let leader = (far > NEAR).then(|| (wish.anchor, rect.nearest(wish.anchor)));
-            if let Some((a, b)) = leader {
-                cost += over(a, b, wish.anchor, taken, lines);
-            }
-            offers.push((cost, LabelPlace { rect, leader }));
-        }
-        for (cost, place) in offers {
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, place));
-            }
-        }
+            let across = leader.map_or(0.0, |(a, b)| over(a, b, wish.anchor, taken, lines));
+            let cost = ring + slant + crossed(&rect, lines) + across;
+            Some((cost, LabelPlace { rect, leader }))
+        });
+        best = best.into_iter().chain(tried).min_by(cheaper);
         away += 5.0 + 0.12 * far;
     }
-    best.map_or_else(
-        || {
-            // outside of everything there always is room
-            let middle = [bounds.right + wish.width / 2.0 + GAP, wish.anchor[1]];
-            let rect = Rect::around(middle, wish.width, wish.height);
-            let leader = Some((wish.anchor, rect.nearest(wish.anchor)));
-            LabelPlace { rect, leader }
-        },
-        |(_, place)| place,
-    )
+    let outside = || {
+        // outside of everything there always is room
+        let middle = [bounds.right + wish.width / 2.0 + GAP, wish.anchor[1]];
+        let rect = Rect::around(middle, wish.width, wish.height);
+        let leader = Some((wish.anchor, rect.nearest(wish.anchor)));
+        LabelPlace { rect, leader }
+    };
+    best.map_or_else(outside, |(_, place)| place)
 }
 
 /// The box whose distance from the anchor is `away`, in a direction.
