@@ -7,6 +7,7 @@ mod enumeration;
 mod force_plans;
 mod ill_posed;
 mod loads;
+mod misfit;
 mod published;
 mod reactions;
 mod stability;

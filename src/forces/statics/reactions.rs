@@ -24,6 +24,7 @@ pub mod follow;
 pub mod geometry;
 pub(crate) mod inertia;
 pub mod loads;
+pub mod misfit;
 pub(crate) mod solution;
 pub mod solve;
 mod unilateral;
