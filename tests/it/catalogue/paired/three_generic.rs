@@ -182,10 +182,6 @@ fn what_is_not_laid_out_is_refused_with_a_way_out() {
     let file = at(&folder, "none.db");
     for (words, says) in [
         (
-            "--pairs slide --links 4 --one-pin with",
-            "leave it out, or ask for two (--jaws 2)",
-        ),
-        (
             "--pairs slide --links 4..9",
             "leave generic_pairs (--generic-pairs) out for more",
         ),

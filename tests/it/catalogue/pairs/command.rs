@@ -62,26 +62,6 @@ fn data_has_a_row_for_each_kind_of_drive() {
 }
 
 #[test]
-fn a_left_and_a_right_slide_are_one_choice() {
-    let pairs = [
-        "--links",
-        "3..6",
-        "--pairs",
-        "slide,gear,slot",
-        "--at-most",
-        "2",
-        "--up-to-symmetry",
-    ];
-    let out = count(&pairs);
-    let row = out.lines().find(|l| {
-        let words = l.split_whitespace().take(3).collect_vec();
-        words == ["mirror", "apart", "2"]
-    });
-    let cells = row.unwrap().split_whitespace().skip(3).collect_vec();
-    assert_eq!(cells, ["0", "4", "5", "20"]);
-}
-
-#[test]
 fn what_cannot_be_counted_is_refused() {
     for (bad, said) in [
         (&["--pairs", "hinge"][..], "slide, gear, slot"),
@@ -89,7 +69,6 @@ fn what_cannot_be_counted_is_refused() {
         (&["--pairs", "slide", "--links", "4..12"], "10 links"),
         (&["--links", "3"], "--pairs"),
         (&["--at-most", "2"], "--pairs"),
-        (&["--up-to-symmetry"], "--pairs"),
     ] {
         let o = ozols(&[&["catalog", "count"], bad].concat())
             .output()
