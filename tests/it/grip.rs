@@ -3,7 +3,6 @@
 mod cases;
 mod clamped;
 mod effort;
-mod force_closure;
 mod holding;
 mod motion;
 mod published;
