@@ -18,6 +18,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::catalog::general::{General, InputPair};
 use ozols::catalog::row::row_of_pair;
 use ozols::catalog::spec::{Spec, range};
+use ozols::chains::Symmetry;
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
 use ozols::chains::roles::Subject;
@@ -45,14 +46,18 @@ impl Kind {
     fn new(symmetries: &str) -> Kind {
         let mut spec = Spec::default();
         if symmetries != "all" {
-            spec.symmetries = symmetries.split(',').map(str::to_owned).collect();
+            let named = |word: &str| Symmetry::ALL.into_iter().find(|(_, w)| *w == word);
+            let all = symmetries
+                .split(',')
+                .map(|word| named(word).expect("a symmetry"));
+            spec.symmetries = all.map(|(symmetry, _)| symmetry).collect();
         }
         let name = symmetries.to_owned();
         Kind { name, spec }
     }
 
     fn of_chain(&self, (chain, automorphisms): &Named) -> Vec<Structure> {
-        let forms = self.spec.forms().expect("forms");
+        let forms = self.spec.forms();
         let subject = Subject::new(chain, automorphisms);
         let mut all = hinged_structures(&subject, self.spec.jaws, &forms);
         // Nearly all generic ones move, of symmetric ones few.

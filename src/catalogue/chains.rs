@@ -15,20 +15,21 @@ pub mod canonical;
 pub mod census;
 pub mod chain;
 pub mod classics;
-pub(crate) mod contracted;
 pub mod enumerate;
 pub mod graph6;
 pub mod layout_symmetry;
 pub mod motion;
 pub mod roles;
 pub mod sharing;
-mod strings;
 pub mod structure;
 pub mod symmetric_census;
 pub mod visit;
 
+use serde::{Deserialize, Serialize};
+
 /// A pair of links in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum PairKind {
     /// They turn about a pin.
     Hinge = 1,
@@ -92,7 +93,8 @@ impl PairKind {
 }
 
 /// The symmetry of a structure and its layout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Symmetry {
     /// No symmetry: the place of every pin is free.
     Generic,
@@ -142,7 +144,8 @@ impl Symmetry {
 }
 
 /// How the driver moves in the frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Input {
     /// It slides.
     Slide,

@@ -38,7 +38,7 @@ pub(in crate::cli) enum Command {
     /// Compute Assur groups of a planar mechanism, and joint reactions over the cycle.
     #[command(after_help = examples::STATICS)]
     Statics(statics::args::Statics),
-    /// Compute what a lever gripper can hold, or the force closure of any clamped mechanism.
+    /// Compute what a lever gripper can hold.
     #[command(after_help = examples::GRIP)]
     Grip(grip::Grip),
     /// Size a torsional drive of two discs and run its programme.

@@ -51,8 +51,7 @@ Examples:
   ozols grip lever-gripper                           contact forces and drive moment for all diameters
   ozols grip lever-gripper --acceleration 5,0,-2     with an additional acceleration of the gripper
   ozols grip lever-gripper --any-acceleration 3      in any direction; `ozols drive` prints a value
-  ozols grip lever-gripper --svg charts              charts of the force arms and the drive moment
-  ozols grip gripper-10-loaded --closure             force closure and form closure of a clamped mechanism";
+  ozols grip lever-gripper --svg charts              charts of the force arms and the drive moment";
 
 pub(super) const DRIVE: &str = "\
 Examples:

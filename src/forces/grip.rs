@@ -1,22 +1,17 @@
 //! Holding capacity of a two-lever gripper: its arms, contacts and drive moments, and the loads of a grip on its
-//! mechanism. Also how firmly the contacts of any clamped mechanism hold the part.
+//! mechanism.
 //!
 //! [`grip`] studies a gripper over its diameters with its drive: its holding capacity, and the required effort of the
 //! one drive of both levers. [`clamped::clamped`] solves for the joints of a mechanism around a part.
-//! [`force_closure::closure`] determines the loads that its contacts resist.
 
 pub mod arm_curves;
 pub mod clamped;
-pub mod clamped_part;
 pub mod clamping;
 pub mod contact;
-pub mod faces;
-pub mod force_closure;
 pub mod holding;
 pub mod jaw_loads;
 pub mod lever_arm;
 pub mod motion;
-mod resisted_load;
 
 use crate::geom::exact::ExactError;
 use crate::grip::clamping::{DiameterRow, Study, study};

@@ -1,4 +1,4 @@
-//! The forces of a mechanism: Assur groups and reactions, grips and the closure of what they hold, the drive of two discs.
+//! The forces of a mechanism: Assur groups and reactions, grips, and the drive of two discs.
 
 use ozols_kernel::{closure, format, geom, model, motion};
 

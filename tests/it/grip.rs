@@ -4,7 +4,6 @@ use crate::common::*;
 mod cases;
 mod clamped;
 mod effort;
-mod force_closure;
 mod holding;
 mod motion;
 mod published;

@@ -1,9 +1,9 @@
-//! Every structure of a specification, in parallel, each given when it is done.
+//! Builds every structure of a specification in parallel.
 
 use crate::catalog::RowError;
 use crate::catalog::general::{General, InputPair};
 use crate::catalog::row::{StructureRow, row_of_pair};
-use crate::catalog::spec::{MOST_PAIRED, Spec};
+use crate::catalog::spec::{MOST_PAIRED, Spec, SpecError};
 use crate::chains::PairKind;
 use crate::chains::enumerate::{ChainsError, chains};
 use crate::chains::roles::Subject;
@@ -15,13 +15,16 @@ use crate::synthesis::structure::Structure;
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::ops::{ControlFlow, RangeInclusive};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 /// Why a catalogue cannot be built.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BuildError {
+    /// The specification is wrong.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
     /// Chains that are not listed.
     #[error(transparent)]
     Chains(#[from] ChainsError),
@@ -50,10 +53,10 @@ impl Work {
     }
 }
 
-/// The structures of a part of a specification.
+/// Returns the structures of a part of a specification.
 ///
 /// # Errors
-/// Where the specification is wrong.
+/// Returns an error if the specification is wrong.
 pub fn work(spec: &Spec, shard: Shard) -> Result<Work, BuildError> {
     let mut all = if spec.classics {
         known(spec)
@@ -83,23 +86,20 @@ fn known(spec: &Spec) -> Vec<Structure> {
 }
 
 fn paired_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
-    let forms = spec.paired_forms().map_err(RowError::from)?;
+    let forms = spec.paired_forms();
     if forms.is_empty() {
         return Ok(Vec::new());
     }
-    let links = spec.links().map_err(RowError::from)?;
-    let of_pairs = Pairs::new(spec)?;
+    let links = spec.links()?;
+    let of_pairs = Pairs::new(spec);
     let symmetric = (spec.jaws == 2).then(|| of_pairs.two_jawed(links.clone()));
     let generic = (spec.generic_pairs).then(|| of_pairs.generic(links, spec.jaws));
     let all = symmetric.into_iter().flatten();
     let all = all.chain(generic.into_iter().flatten());
     let all = all.flat_map(Structure::with_parallelograms);
     let all = all.filter(|p| forms.contains(&(p.input(), p.form)));
-    let asked = all.flat_map(|p| of_pairs.made(p));
     // Structures that have only hinges except for the input are listed by `hinged_work`.
-    Ok(asked
-        .filter(|p| p.form.one_pin != 0 || !p.is_hinged())
-        .collect())
+    Ok(all.filter(|p| !p.is_hinged()).collect())
 }
 
 /// What structures of pairs are made of.
@@ -108,42 +108,21 @@ struct Pairs {
     most: usize,
     /// Whether no pairs are asked for except a drive that slides.
     hinged: bool,
-    /// Whether only structures with hinges on one pin are built, or only those without; `None` if both are.
-    one_pin: Option<bool>,
-    /// Whether only structures with flat faces are built, or only those without; `None` if both are.
-    flat_faces: Option<bool>,
 }
 
 impl Pairs {
-    fn new(spec: &Spec) -> Result<Pairs, BuildError> {
-        let mut kinds = spec.pairs().map_err(RowError::from)?;
-        let hinged = kinds.is_empty();
-        if hinged {
-            kinds.push(PairKind::Slide);
-        }
-        Ok(Pairs {
+    fn new(spec: &Spec) -> Pairs {
+        let hinged = spec.pairs.is_empty();
+        let kinds = if hinged {
+            vec![PairKind::Slide]
+        } else {
+            spec.pairs.clone()
+        };
+        Pairs {
             kinds,
             most: spec.at_most,
             hinged,
-            one_pin: spec.one_pin().map_err(RowError::from)?,
-            flat_faces: spec.flat_faces().map_err(RowError::from)?,
-        })
-    }
-
-    /// Returns a structure in the ways in which it is to be made.
-    fn made(&self, p: Structure) -> impl Iterator<Item = Structure> {
-        let (one_pin, flat_faces) = (self.one_pin, self.flat_faces);
-        let pins = (one_pin != Some(false)).then(|| p.clone().with_one_pins());
-        let alone = pins.is_none().then_some(p);
-        let all = pins.into_iter().flatten().chain(alone);
-        let all = all.flat_map(|p| {
-            let flat = p.with_flat_faces();
-            std::iter::once(p).chain(flat)
-        });
-        all.filter(move |p| {
-            one_pin.is_none_or(|only| only == (p.form.one_pin != 0))
-                && flat_faces.is_none_or(|only| only == p.form.flat)
-        })
+        }
     }
 
     /// Returns the structures of the given numbers of links and jaws, laid out without a symmetry.
@@ -166,27 +145,26 @@ impl Pairs {
 
 /// Returns the structures of three jaws that have the numbers of links asked for and are made of structures of two jaws.
 fn threefold_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
-    let forms = spec.threefold_forms().map_err(RowError::from)?;
+    let forms = spec.threefold_forms();
     if forms.is_empty() {
         return Ok(Vec::new());
     }
-    let links = spec.links().map_err(RowError::from)?;
-    let of_pairs = Pairs::new(spec)?;
+    let links = spec.links()?;
+    let of_pairs = Pairs::new(spec);
     let two = of_pairs.two_jawed(3..=MOST_PAIRED.min(*links.end()));
     let two = two.flat_map(Structure::with_parallelograms);
     let two = two.filter(|p| forms.contains(&(p.input(), p.form)));
-    let two = two.flat_map(|p| of_pairs.made(p));
     let all = two.filter_map(Structure::thrice);
     Ok(all.filter(|t| links.contains(&t.links())).collect())
 }
 
 fn hinged_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
-    let forms = spec.forms().map_err(RowError::from)?;
+    let forms = spec.forms();
     let mut out = Vec::new();
     if forms.is_empty() {
         return Ok(out);
     }
-    for n in spec.links().map_err(RowError::from)?.filter(|n| n % 2 == 0) {
+    for n in spec.links()?.filter(|n| n % 2 == 0) {
         out.par_extend(chains(n, 1)?.into_par_iter().flat_map_iter(|chain| {
             let (chain, automorphisms) = chain.canonical();
             hinged_structures(&Subject::new(&chain, &automorphisms), spec.jaws, &forms)
@@ -195,11 +173,11 @@ fn hinged_work(spec: &Spec) -> Result<Vec<Structure>, BuildError> {
     Ok(out)
 }
 
-/// Makes the rows of all structures but those whose ids `skip` knows, in parallel, and gives each to `done` when it is ready,
-/// one at a time. Which comes first depends on the threads; what is in a row does not. Ends early where `done` breaks.
+/// Makes the rows of all structures, except those whose ids `skip` knows, in parallel. Gives each to `done` when it is ready,
+/// one at a time. The order depends on the threads; the rows do not. Ends early if `done` breaks.
 ///
 /// # Errors
-/// The first failure.
+/// Returns the first failure.
 pub fn build<B: Send>(
     spec: &Spec,
     work: &Work,
@@ -207,52 +185,31 @@ pub fn build<B: Send>(
     done: impl FnMut(StructureRow) -> ControlFlow<B> + Send,
 ) -> Result<Option<B>, BuildError> {
     let done = Mutex::new(done);
-    let give = |row: StructureRow| -> Result<(), BuildEnd<B>> {
-        let Ok(mut done) = done.lock() else {
-            return Err(BuildEnd::Poisoned);
-        };
-        match done(row) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(b) => Err(BuildEnd::Asked(b)),
-        }
-    };
-    let one = |structure: &Structure, general: Option<&General>| {
+    // An end before all is built: what `done` breaks with, or a failure.
+    type End<B> = Result<B, BuildError>;
+    let failed = |e: RowError| -> End<B> { Err(e.into()) };
+    let one = |structure: &Structure, general: Option<&General>| -> Result<(), End<B>> {
         if skip(&structure.id()) {
             return Ok(());
         }
-        give(row_of_pair(structure, spec, general).map_err(BuildEnd::failed)?)
+        let row = row_of_pair(structure, spec, general).map_err(failed)?;
+        // If another thread panicked in `done`, this one ends with it.
+        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+        match done(row) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(b) => Err(Ok(b)),
+        }
     };
     let all = work.structures.par_iter().try_for_each(|(_, together)| {
         let Some(first) = together.iter().find(|s| !skip(&s.id())) else {
             return Ok(());
         };
-        let general = General::of(first, spec).map_err(BuildEnd::failed)?;
+        let general = General::of(first, spec).map_err(failed)?;
         let each = together.par_iter();
         each.try_for_each(|s| one(s, general.as_ref()))
     });
-    all.map_or_else(BuildEnd::told, |()| Ok(None))
-}
-
-/// Why building ends before all is built.
-enum BuildEnd<B> {
-    /// Whoever takes the rows has enough.
-    Asked(B),
-    /// It panicked.
-    Poisoned,
-    /// A row failed.
-    Failed(BuildError),
-}
-
-impl<B> BuildEnd<B> {
-    fn failed(e: RowError) -> BuildEnd<B> {
-        BuildEnd::Failed(BuildError::Row(e))
-    }
-
-    fn told(self) -> Result<Option<B>, BuildError> {
-        match self {
-            BuildEnd::Poisoned => Ok(None),
-            BuildEnd::Asked(b) => Ok(Some(b)),
-            BuildEnd::Failed(e) => Err(e),
-        }
+    match all {
+        Ok(()) => Ok(None),
+        Err(end) => end.map(Some),
     }
 }

@@ -1,4 +1,4 @@
-//! A mechanism that somebody drew, as a row beside the structures.
+//! A mechanism that somebody drew, as a row of a catalogue.
 
 use crate::catalog::RowError;
 use crate::catalog::row::{IdeaRow, Symmetric, ideas_of};
@@ -14,14 +14,14 @@ use num_bigint::BigUint;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// A drawn mechanism, searched with the options and under the workload of its own file.
+/// A drawn mechanism, searched with the options and workload of its file.
 #[derive(Debug, Clone)]
 pub struct DrawnMechanism {
     /// `drawn-` and the beginning of a hash of the file.
     pub id: String,
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its description.
     pub description: String,
     /// The file in TOML.
     pub file: String,
@@ -29,27 +29,27 @@ pub struct DrawnMechanism {
     pub size: [usize; 3],
     /// `spatial`, or `planar`.
     pub mode: &'static str,
-    /// How it is driven: `slide`, `turn`, or nothing where it is not one joint of one freedom.
+    /// Its drive: `slide` or `turn`. `None` unless one joint of one freedom is driven.
     pub input: Option<&'static str>,
     /// W and σ as built.
     pub as_built: (usize, usize),
-    /// The mobility that is really there, and how that is known.
+    /// The full-cycle mobility, and how it is known.
     pub finite: String,
     /// Variants with σ = 0, by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
-    /// Of these, those that are their own image by the symmetry that the file names, where it is one.
+    /// The number of them that are their own image under the symmetry that the file names, if it names one.
     pub symmetric: Symmetric,
-    /// Of those that keep the output motion the ones with no more mobility than is really there, by the same.
+    /// The number of variants that keep the output motion and have at most the full-cycle mobility.
     pub admissible: BigUint,
     /// Whether every count is exact; lower bounds otherwise.
     pub exact: bool,
-    /// How many ideas were to be kept.
+    /// The number of ideas asked for.
     pub ideas_asked: usize,
     /// The best ideas among these, cheapest first.
     pub ideas: Vec<IdeaRow>,
 }
 
-/// The figure with the weakest word that is true of it.
+/// Returns the mobility with the weakest word that is true of it.
 pub(super) fn known(finite: &Finite) -> String {
     let word = match finite.how {
         _ if finite.numeric => "numeric",
@@ -61,7 +61,7 @@ pub(super) fn known(finite: &Finite) -> String {
     format!("{}, {word}", finite.figure())
 }
 
-/// A mechanism as a file, and the id that follows from it.
+/// Returns the id of a mechanism, and its file.
 fn named(mechanism: &Mechanism) -> Result<(String, String), RowError> {
     let file = formats::write(mechanism, "toml").map_err(|e| RowError::File {
         structure: mechanism.name.clone(),
@@ -72,10 +72,10 @@ fn named(mechanism: &Mechanism) -> Result<(String, String), RowError> {
     Ok((format!("drawn-{hash}"), file))
 }
 
-/// The id of a drawn mechanism in a catalogue.
+/// Returns the id of a drawn mechanism in a catalogue.
 ///
 /// # Errors
-/// Where it cannot be written as a file.
+/// Returns an error if it cannot be written as a file.
 pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
     Ok(named(mechanism)?.0)
 }
@@ -83,7 +83,7 @@ pub fn id(mechanism: &Mechanism) -> Result<String, RowError> {
 /// Searches a drawn mechanism.
 ///
 /// # Errors
-/// Where it cannot be analysed, searched or written.
+/// Returns an error if it cannot be analysed, searched or written.
 pub fn drawn(mechanism: Mechanism, top: usize, nodes: usize) -> Result<DrawnMechanism, RowError> {
     let (id, file) = named(&mechanism)?;
     let method = Method::Auto;

@@ -20,14 +20,14 @@ const STRUCTURES: &str = "SELECT id, concat_ws(' ', input, symmetry, iif(paralle
 pub struct Entry {
     /// Its short name.
     pub id: String,
-    /// How it is laid out, in words.
+    /// Its layout, in words.
     pub form: String,
 }
 
-/// The entries of a catalogue that are a structure, in whatever form they are laid out, symmetric ones first.
+/// Returns the entries of a catalogue that are a structure, in any form, symmetric ones first.
 ///
 /// # Errors
-/// Those of the database.
+/// Returns an error if the database cannot be read.
 ///
 /// # Complexity
 /// One canonical numbering for each structure of as many links.
@@ -41,7 +41,7 @@ pub fn entries(
     let (_, rows) = store.query(STRUCTURES, Some(&links))?;
     let same = |row: &&Vec<Value>| read(row).is_some_and(|s| s.key() == key);
     let found = rows.iter().filter(same).map(|r| Entry::new(r));
-    // A screw is no pinion; other forms of the same structure are told after those made alike.
+    // A screw is not a pinion. Other forms of the same structure follow those made in the same way.
     let alike = found.filter(|e| e.has("threaded") == made_as.threaded);
     let other = |e: &Entry| {
         let pins = e.has("on one pin") != made_as.jaws_on_one_pin;
@@ -51,7 +51,7 @@ pub fn entries(
 }
 
 impl Entry {
-    /// Of a row that begins with id and form.
+    /// Creates the entry of a row that begins with id and form.
     pub(super) fn new(row: &[Value]) -> Entry {
         let word = |v: &Value| v.as_str().unwrap_or_default().to_owned();
         Entry {
@@ -69,7 +69,7 @@ impl Entry {
     }
 }
 
-/// The structure of a row that begins as [`STRUCTURES`] does.
+/// Returns the structure of a row that begins as those of [`STRUCTURES`].
 pub(super) fn read(row: &[Value]) -> Option<PairStructure> {
     let chain = graph6::read(row.get(2)?.as_str()?).ok()?;
     let slides = row.get(3)?.as_str()? == "slide";

@@ -1,10 +1,10 @@
-//! What the layouts of a chain and its input have in common where their pins are in general position.
+//! The determinate variants that all layouts of a chain and its input share if their pins are in general position.
 //!
-//! A variant is determinate where the columns that it adds have the full rank. At special places a rank is less than at nearly
-//! all places, never more: what is determinate at some place is so in general position. One search, at places drawn at random,
-//! serves all layouts then that have the same determinate variants, and whether a layout has them is seen by following the minimal ones
-//! over one prime: modulo a prime, too, a rank is never more than it is. A minimal diagram is the only one of its variants in an order of
-//! variables, so that diagrams are compared edge by edge.
+//! A variant is determinate if the columns that it adds have the full rank. At special places a rank is lower than at nearly
+//! all places, never higher. So a variant that is determinate at some place is determinate in general position. One search, at
+//! places drawn at random, therefore serves all layouts with the same determinate variants. Following the minimal variants over
+//! one prime shows whether a layout has them, because modulo a prime a rank is never higher either. A minimal diagram is the
+//! only one of its variants in an order of variables, so diagrams are compared edge by edge.
 
 use crate::catalog::spec::Spec;
 use crate::catalog::{RowError, mechanism, search};
@@ -34,13 +34,13 @@ const PAIRS_OF_PLACES: usize = 4;
 pub struct General {
     /// The determinate variants.
     diagram: Diagram,
-    /// Of these the minimal ones, where they are known.
+    /// The minimal ones among them, if they are known.
     minimal: Option<Diagram>,
-    /// Those that ideas are made of.
+    /// The variants that ideas consist of.
     idea_variants: Diagram,
     /// The first ideas of layouts, each with what they depend on.
     ideas: Mutex<Vec<(IdeaBasis, Vec<Idea>)>>,
-    /// These by W and number of changes.
+    /// Counts of the determinate variants by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
 }
 
@@ -66,7 +66,7 @@ impl InputPair {
         })
     }
 
-    /// A structure of the pair that does not depend on which are asked for: it stands for all.
+    /// Returns a structure that represents the pair, independent of the structures asked for.
     fn structure(self, form: Form) -> Structure {
         let jaws = (0..self.chain.links()).filter(|l| !self.input.contains(l));
         let roles = Roles {
@@ -79,7 +79,7 @@ impl InputPair {
     }
 }
 
-/// A structure with its pins at random places, the same for the same number.
+/// Returns a structure with its pins at random places. The same number gives the same places.
 fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechanism, RowError> {
     let PairStructure { chain, roles } = &structure.structure;
     let [u, v] = roles.input;
@@ -97,7 +97,7 @@ fn at_random(structure: &Structure, spec: &Spec, number: usize) -> Result<Mechan
     mechanism(&structure.name(), &file)
 }
 
-/// Whether two diagrams in the same order have the same variants.
+/// Returns true if two diagrams in the same order have the same variants.
 fn same(a: &Diagram, b: &Diagram) -> bool {
     let layers = a.layers.iter().zip(&b.layers);
     [a, b].iter().all(|d| d.stop == Stop::Exhausted)
@@ -109,15 +109,15 @@ fn same(a: &Diagram, b: &Diagram) -> bool {
 }
 
 impl General {
-    /// Searches the pair of a structure, at two random places and over a prime each, which must agree; `None` where the structure is
-    /// laid out in special places, or where the budget of nodes ends the search.
+    /// Searches the pair of a structure at two random places, each over a prime; both must agree. Returns `None` if the structure
+    /// is laid out in special places, or if the node budget ends the search.
     ///
     /// # Errors
-    /// Where the specification is wrong, or the program fails.
+    /// Returns an error if the specification is wrong, or the program fails.
     ///
     /// # Guarantee
-    /// A variant that both miss is determinate in general position only where a minor vanishes at two places drawn one without the
-    /// other, each modulo a prime near 2^61.
+    /// A variant that both miss is determinate in general position only if a minor vanishes at two independent random places,
+    /// each modulo a prime near 2^61.
     ///
     /// # Complexity
     /// Two searches.
@@ -152,15 +152,15 @@ impl General {
         Ok(None)
     }
 
-    /// The search of a layout of the pair over one prime, where all variants that are determinate in general position are so there; then
-    /// no others are, and all counts are those of the pair. The minimal ones are enough: freedoms that are added to a determinate variant
-    /// leave it determinate.
+    /// Returns the search of a layout over one prime if all variants that are determinate in general position are determinate
+    /// there. Then no others are, and all counts are those of the pair. The minimal variants are enough, because added freedoms
+    /// leave a variant determinate.
     ///
     /// # Errors
-    /// Where the mechanism cannot be searched.
+    /// Returns an error if the mechanism cannot be searched.
     ///
     /// # Complexity
-    /// That of [`Search::has_all`] for the minimal variants.
+    /// That of [`Search::has_all`] for the minimal variants. One diagram if the minimal variants are unknown.
     pub(super) fn certify(
         &self,
         layout: Mechanism,
@@ -171,14 +171,14 @@ impl General {
         Ok(has_all.then_some(search))
     }
 
-    /// The first ideas of a layout that is certified, `top` of them at most: those of an earlier one, where they depend on the same.
-    /// All layouts of the pair are asked for as many.
+    /// Returns at most `top` first ideas of a certified layout. They are those of an earlier layout if they depend on the same.
+    /// All layouts of the pair must be asked for equally many.
     ///
     /// # Complexity
     /// That of looking for them, once for each way in which the links of the pair are frame, jaws and rods.
     pub(super) fn ideas(&self, search: &Search, top: usize) -> Vec<Idea> {
         let basis = search.idea_basis();
-        // What a thread that panicked has put there is whole.
+        // An entry of a thread that panicked is complete.
         let known = || self.ideas.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, ideas)) = known().iter().find(|(of, _)| *of == basis) {
             return ideas.clone();

@@ -1,4 +1,4 @@
-//! The structures of a catalogue that are next to a given one, and what their layouts do better.
+//! The structures of a catalogue that are next to a given one, and the figures in which their layouts are better.
 
 use crate::catalog::find::{Entry, read};
 use crate::catalog::store::{Store, StoreError};
@@ -10,7 +10,7 @@ use itertools::Itertools;
 use serde::Serialize;
 use std::collections::HashSet;
 
-/// What a figure of a layout is, and which of two values is better.
+/// A figure of a layout, and which of two values is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Figure {
     /// Its column in the view `grippers`.
@@ -22,7 +22,7 @@ pub struct Figure {
     is_more_better: bool,
 }
 
-/// What layouts are compared by.
+/// The figures by which layouts are compared.
 pub const FIGURES: [Figure; 6] = [
     figure("least_force", "least force", "N", true),
     figure("force_ratio", "greatest over least force", "", false),
@@ -32,7 +32,7 @@ pub const FIGURES: [Figure; 6] = [
     figure("price", "price", "", false),
 ];
 
-/// The place of the least force in them, the one figure that asks how the input moves.
+/// Index of the least force, the only figure that depends on how the input moves.
 const LEAST_FORCE: usize = 0;
 
 const fn figure(
@@ -49,7 +49,7 @@ const fn figure(
     }
 }
 
-/// The values of the figures of a layout; `None` for a figure that it does not have.
+/// The values of the figures of a layout. `None` for a figure that it lacks.
 type Figures = [Option<f64>; FIGURES.len()];
 
 /// The relations of structures that are next to each other, the nearest first.
@@ -60,11 +60,11 @@ const RELATIONS: [&str; 3] = ["other-roles", "fewer-links", "more-links"];
 pub struct Neighbour {
     /// Its id.
     pub id: String,
-    /// How it is laid out.
+    /// Its layout.
     pub form: String,
-    /// How it is next to the given one: other roles of the same chain, or the structure that is left when one of both loses links.
+    /// Its relation to the given one: other roles of the same chain, or the structure left if one of both loses links.
     pub relation: &'static str,
-    /// By how many links.
+    /// Difference of their numbers of links.
     pub links: usize,
     /// The figures in which its layout is better than each layout of the given one. If that one has no layout, all figures.
     pub better: Vec<BetterFigure>,
@@ -81,12 +81,12 @@ pub struct BetterFigure {
     pub own: Option<f64>,
 }
 
-/// Of each layout with its form: what `read` needs, then the figures.
+/// Query for each layout with its form: the columns that `read` needs, then the figures.
 const LAYOUTS: &str = "SELECT s.id, concat_ws(' ', s.input, s.symmetry, iif(s.parallel, 'parallel', NULL)), s.chain, s.input, s.frame, s.driver, \
      s.jaw_a, s.jaw_b, s.jaw_c, p.code, p.driven_from, g.least_force, g.force_ratio, g.turn, g.pin_force, g.width * g.height, g.price \
      FROM structures s JOIN grippers g ON g.id = s.id LEFT JOIN pairs p ON p.structure = s.id \
      WHERE g.reached = 1 AND s.links BETWEEN ?1 - 4 AND ?1 + 4";
-/// Where the figures of a row begin.
+/// Index of the first figure in a row.
 const FIRST_FIGURE: usize = 11;
 
 /// Returns the structures of a catalogue that are next to a structure and have as many jaws.
@@ -96,7 +96,7 @@ const FIRST_FIGURE: usize = 11;
 /// Each half loses two links then.
 ///
 /// # Errors
-/// Those of the database.
+/// Returns an error if the database cannot be read.
 ///
 /// # Complexity
 /// A few canonical numberings for each layout of up to four links less or more; some fifty for symmetric ones of four more.

@@ -1,4 +1,4 @@
-//! One structure of a catalogue: where its links are, what it does, and how it is made determinate.
+//! One structure of a catalogue: its layout, its figures, and its determinate variants.
 
 use crate::catalog::general::General;
 use crate::catalog::spec::Spec;
@@ -37,43 +37,43 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct StructureRow {
     /// The structure.
     pub structure: Structure,
-    /// How many of the jaws are joined to the frame.
+    /// Number of jaws that are joined to the frame.
     pub jaws_at_frame: usize,
     /// Whether it makes a truss with a part hinged to both jaws, where there are two and all its joints are hinges but the input.
     pub truss: bool,
     /// Whether its graph is symmetric, jaw for jaw.
     pub graph_symmetric: bool,
-    /// What it is when laid out, or why it is not.
+    /// Its layout with figures and variants, or the reason why it has none.
     pub laid: Result<Laid, NoLayout>,
 }
 
 /// A structure laid out, searched and scored.
 #[derive(Debug, Clone)]
 pub struct Laid {
-    /// Where it is.
+    /// Places of its joints.
     pub layout: Layout,
-    /// What it does over its stroke.
+    /// Figures over its stroke.
     pub figures: LayoutFigures,
     /// The mechanism as a file in TOML.
     pub file: String,
     /// W and σ as built.
     pub as_built: (usize, usize),
-    /// The mobility that is really there, and how that is known.
+    /// The full-cycle mobility, and how it is known.
     pub finite: Finite,
     /// Determinate variants by W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
-    /// Of these, those that are their own image by the symmetry of the layout.
+    /// The number of them that are their own image under the symmetry of the layout.
     pub symmetric: Symmetric,
-    /// Whether every count is exact; lower bounds otherwise, where the node budget ended the search.
+    /// Whether every count is exact. Otherwise the node budget ended the search, and they are lower bounds.
     pub exact: bool,
     /// The best ideas with W = 1: symmetric ones first, then the cheapest, which is always among them.
     pub ideas: Vec<IdeaRow>,
 }
 
-/// Variants that a mechanism's symmetry keeps, each of them an orbit of its own; the others are in orbits of two, or three.
+/// Variants that a mechanism's symmetry keeps. Each is one orbit; the others are in orbits of two or three.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Symmetric {
-    /// How often the symmetry is done until all is back; 1 where there is none, and then every variant is its own image.
+    /// Order of the symmetry. 1 without a symmetry; then every variant is its own image.
     pub order: usize,
     /// By W and number of changes.
     pub counts: BTreeMap<(i64, u32), BigUint>,
@@ -82,7 +82,7 @@ pub struct Symmetric {
 }
 
 impl Symmetric {
-    /// Without a symmetry.
+    /// Creates the result for a mechanism without a symmetry.
     #[must_use]
     pub fn none() -> Symmetric {
         Symmetric {
@@ -92,10 +92,10 @@ impl Symmetric {
         }
     }
 
-    /// Of a mechanism, by a search for them alone.
+    /// Searches only for the variants that a mechanism's symmetry keeps.
     ///
     /// # Errors
-    /// Where what the file names is no symmetry of it, or the search fails.
+    /// Returns an error if the symmetry that the file names is invalid, or if the search fails.
     pub fn of(mechanism: &Mechanism, request: &Request) -> Result<Symmetric, RunError> {
         let order = mechanism.search.order();
         if order == 1 {
@@ -114,7 +114,7 @@ impl Symmetric {
         })
     }
 
-    /// How many of `variants` variants of W and number of changes are their own image, and how many orbits there are.
+    /// Returns how many of `variants` variants of W and number of changes are their own image, and the number of orbits.
     #[must_use]
     pub fn split(&self, key: &(i64, u32), variants: &BigUint) -> (BigUint, BigUint) {
         if self.order <= 1 {
@@ -131,22 +131,22 @@ impl Symmetric {
 pub struct IdeaRow {
     /// Its first variant in words.
     pub changes: String,
-    /// Of each joint in the order of the file, the option of its first variant, 0 for the present one.
+    /// For each joint in file order, the option of its first variant, or 0 if it is unchanged.
     pub choices: Vec<usize>,
     /// Cost above the mechanism's, in thousandths.
     pub cost_milli: i64,
     /// Changed joints.
     pub change_count: u32,
-    /// How many variants it stands for.
+    /// Number of variants that it represents.
     pub variants: BigUint,
-    /// Scores of its first variant under the workload; `None` where the reactions have no solution.
+    /// Scores of its first variant under the workload. `None` if the reactions have no solution.
     pub scores: Option<Scores>,
 }
 
-/// The row of a structure, all by itself; [`build`](crate::catalog::build::build) searches only once what rows have in common.
+/// Returns the row of one structure. [`build`](crate::catalog::build::build) shares the searches that rows have in common.
 ///
 /// # Errors
-/// Where the program fails; that a structure has no layout is a row, too.
+/// Returns an error if the program fails. A structure without a layout is a row, too.
 ///
 /// # Complexity
 /// A search for places, one of the variants, and what [`General::of`] takes.
@@ -155,13 +155,13 @@ pub fn row(structure: &Structure, spec: &Spec) -> Result<StructureRow, RowError>
     row_of_pair(structure, spec, general.as_ref())
 }
 
-/// The row of a structure whose chain and input are searched already, as far as they are.
+/// Returns the row of a structure, given the search of its chain and input if there is one.
 ///
 /// # Errors
-/// As [`row`].
+/// Returns an error in the same cases as [`row`].
 ///
 /// # Complexity
-/// A search for places, and a diagram of the variants for each of the places that are looked at.
+/// A search for places, and a diagram of the variants for each place tried.
 pub fn row_of_pair(
     structure: &Structure,
     spec: &Spec,
@@ -185,7 +185,7 @@ pub fn row_of_pair(
 /// The maximum number of seeds that are tried until the pose of a layout is proven to be regular. Nearly always the first is enough.
 const SEEDS: u64 = 6;
 
-/// The first layout of some seeds whose pose is proven to be a regular one; what keeps it from being laid out otherwise.
+/// Returns the first layout of some seeds whose pose is proven to be regular, or the reason why there is none.
 fn regular(
     spec: &Spec,
     lay: impl Fn(u64) -> Result<Result<Laid, NoLayout>, RowError>,
@@ -201,7 +201,7 @@ fn regular(
     Ok(laid)
 }
 
-/// A layout as a file, and the mechanism that it describes.
+/// A layout with its file, and the mechanism that the file describes.
 struct AsFile {
     layout: Layout,
     file: MechanismFile,
@@ -227,14 +227,14 @@ struct Variants {
     ideas: Vec<IdeaRow>,
 }
 
-/// Places beside those found that are looked at until they are in general position.
+/// Maximum number of nearby places that are tried to reach general position.
 const BESIDE: u32 = 20;
 
-/// Links of a chain whose layouts are looked at on whole millimetres first: of more links nearly all of them are special there, and
-/// each would cost a diagram to tell.
+/// Maximum number of links of a chain whose layouts are tried on whole millimetres first. With more links nearly all of them are
+/// special there, and each would cost a diagram.
 const ON_MILLIMETRES: usize = 8;
 
-/// A layout in general position, with its variants: the one that is given, or one beside it. `None` where none of these is.
+/// Returns a layout in general position with its variants: the given one, or a nearby one. `None` if none of these is general.
 fn in_general_position(
     structure: &Structure,
     found: &AsFile,
@@ -263,7 +263,7 @@ fn in_general_position(
     Ok(None)
 }
 
-/// The variants of a layout in special places, by a search of its own.
+/// Searches the variants of a layout in special places.
 fn of_its_own(built: &Mechanism, spec: &Spec) -> Result<Variants, RowError> {
     let symmetric = Symmetric::of(built, &request(spec))?;
     let outcome = run(built.clone(), &request(spec), &|| false, &mut |_| {})?;
@@ -316,7 +316,7 @@ fn lay(
     }))
 }
 
-/// The first ideas of what was found.
+/// Returns the first ideas of an outcome.
 pub(super) fn ideas_of(outcome: &Outcome, top: usize) -> Vec<IdeaRow> {
     let search = &outcome.search;
     let diagrams = outcome.diagrams.as_ref().filter(|_| top > 0);
@@ -390,14 +390,14 @@ fn rows(search: &Search, ideas: Vec<Idea>, top: usize) -> Vec<IdeaRow> {
 }
 
 impl Laid {
-    /// Orbits of determinate variants of W = 1.
+    /// Returns the number of orbits of determinate variants with W = 1.
     #[must_use]
     pub fn orbits(&self) -> BigUint {
         let some = self.counts.iter().filter(|((w, _), _)| *w == 1);
         some.map(|(key, n)| self.symmetric.split(key, n).1).sum()
     }
 
-    /// Determinate variants of mobility `w`, or of any where there is none.
+    /// Returns the number of determinate variants of mobility `w`, or of any mobility.
     #[must_use]
     pub fn determinate(&self, w: Option<i64>) -> BigUint {
         let some = self

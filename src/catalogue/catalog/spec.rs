@@ -1,12 +1,7 @@
-//! What a catalogue is to hold.
-
-mod error;
-
-pub use error::SpecError;
-pub(crate) use error::{MOST_LINKS, MOST_PAIRED};
+//! The specification of a catalogue.
 
 use crate::chains::{Input, PairKind, Symmetry};
-use crate::file::schema::{OptionEntry, OptionTable};
+use crate::file::schema::{Coordinate, OptionEntry, OptionTable};
 use crate::synthesis::options::Menu;
 use crate::synthesis::structure::Form;
 use crate::synthesis::task::{Limits, Task};
@@ -14,79 +9,182 @@ use crate::synthesis::workload::Workload;
 use itertools::Itertools;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
+use thiserror::Error;
 
-/// The widest part of a task, in mm: pins stand within some 100 mm of each other.
+/// Maximum number of links of a structure: with more there are millions of structures.
+pub(crate) const MOST_LINKS: usize = 12;
+
+/// Maximum number of links of a structure with pairs.
+pub(crate) const MOST_PAIRED: usize = 8;
+
+/// Width of the widest part of a task, in mm: pins stand within some 100 mm of each other.
 const WIDEST: i64 = 200;
 
-/// What a catalogue is to hold; the file of it, TOML, has the same keys.
+/// Fault of a specification.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SpecError {
+    /// An unknown word.
+    #[error("{what}: {word:?} is none of {}", known.join(", "))]
+    Word {
+        /// The key.
+        what: &'static str,
+        /// The word.
+        word: String,
+        /// The known words.
+        known: Vec<String>,
+    },
+    /// A text that is not a range of links.
+    #[error(
+        "links: {0:?} is not a range of even numbers from 4 to {MOST_LINKS}, such as 4..8: chains of mobility 1 have an even number of links; \
+         with gears and slots any number from 3 to {MOST_PAIRED}"
+    )]
+    Links(String),
+    /// Too many links for pairs.
+    #[error(
+        "links: structures with pairs have {MOST_PAIRED} links at most: there are too many beyond; with three jaws \
+         leave generic_pairs (--generic-pairs) out for more"
+    )]
+    PairedLinks,
+    /// Pairs in a form in which they are not laid out.
+    #[error(
+        "pairs: structures with pairs are symmetric: ask for mirror or half-turn among the symmetries, for \
+         generic with generic_pairs (--generic-pairs), or with three jaws for threefold"
+    )]
+    PairedForms,
+    /// Free layouts that no symmetry asked for allows.
+    #[error(
+        "generic_pairs: nothing is laid out freely without generic among the symmetries: add it (--symmetry generic), or leave \
+         generic_pairs (--generic-pairs) out"
+    )]
+    Freely,
+    /// A number out of its range.
+    #[error("{what} must be from {from} to {to}")]
+    Range {
+        /// The key.
+        what: &'static str,
+        /// The least.
+        from: i64,
+        /// The greatest.
+        to: i64,
+    },
+    /// Nothing to score ideas under.
+    #[error(
+        "workload: nothing acts on the gripper; give closing, or gravity with part or link_mass"
+    )]
+    NoLoad,
+    /// A part that is wider than the widest.
+    #[error("narrowest must be at least a millimetre less than widest")]
+    Widths,
+    /// No form is left.
+    #[error(
+        "no layout is asked for: with two jaws a mirror image needs a slide and half a turn a turning input; three jaws are \
+         generic or threefold, and stand on parallelograms where each side is in a plane of its own, threefold with a slide"
+    )]
+    Nothing,
+}
+
+impl SpecError {
+    /// Returns the key that is wrong, if it is one.
+    #[must_use]
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            SpecError::Word { what, .. } | SpecError::Range { what, .. } => Some(what),
+            SpecError::Links(_) | SpecError::PairedLinks => Some("links"),
+            SpecError::PairedForms => Some("pairs"),
+            SpecError::Freely => Some("generic_pairs"),
+            SpecError::NoLoad => Some("closing"),
+            SpecError::Nothing => Some("symmetries"),
+            SpecError::Widths => Some("narrowest"),
+        }
+    }
+}
+
+/// Specification of a catalogue. Its TOML file has the same keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Spec {
-    /// Links from and to, both included: "4..8"; even numbers, with pairs odd ones, too.
+    /// Range of the numbers of links, both ends included: "4..8". Odd numbers need pairs.
     pub links: String,
     /// Jaws of each structure: 2 or 3.
     pub jaws: usize,
     /// Inputs: "slide", "turn".
-    pub inputs: Vec<String>,
+    pub inputs: Vec<Input>,
     /// Symmetries: "generic", "mirror", "half-turn", and for three jaws "threefold".
-    pub symmetries: Vec<String>,
+    pub symmetries: Vec<Symmetry>,
     /// Whether layouts with the jaws on parallelograms are made too: "with", "without" or "only".
-    pub parallel: String,
-    /// Whether layouts with hinges on one pin with their mirror images are made too: "with", "without" or "only".
-    pub one_pin: String,
-    /// Pairs beside hinges that symmetric structures may have: "slide", "gear", "slot"; none by default.
-    pub pairs: Vec<String>,
-    /// Pairs that are not hinges at most, a left and a right one being one.
+    pub parallel: Parallel,
+    /// Other pairs than hinges that symmetric structures may have: "slide", "gear", "slot". None by default.
+    pub pairs: Vec<PairKind>,
+    /// Maximum number of pairs that are not hinges; a left and a right one count once.
     pub at_most: usize,
-    /// Whether structures with pairs are laid out freely, too, symmetric or not: there are many.
+    /// Whether structures with pairs are also laid out freely, symmetric or not. There are many.
     pub generic_pairs: bool,
-    /// Whether slots between links that do not turn against each other are made as flat faces, too: "with", "without" or "only".
-    pub flat_faces: String,
-    /// The well-known schemes and nothing else, whatever their number of links, each as symmetric as it can be.
+    /// Whether only the well-known schemes are built, with any number of links, each as symmetric as possible.
     pub classics: bool,
-    /// What may be put in place of a hinge, by name.
+    /// Joint types that may replace a hinge.
     pub options: Vec<String>,
-    /// What may be put in series with a hinge, an unloading joint with a link of its own, by name; nothing by default.
+    /// Joint types that may be put in series with a hinge, on an additional link. None by default.
     pub unloading: Vec<String>,
-    /// Ideas kept of each structure.
+    /// Number of ideas kept per structure.
     pub ideas: usize,
     /// Seed of the layouts.
     pub seed: u64,
-    /// The longest link over the shortest at most.
+    /// Maximum ratio of the longest link to the shortest.
     pub ratio: f64,
-    /// Crossings of links at most.
+    /// Maximum number of crossings of links.
     pub crossings: usize,
-    /// Nodes of each diagram at most.
+    /// Maximum number of nodes of each diagram.
     pub nodes: usize,
-    /// What ideas are scored under.
+    /// Workload under which ideas are scored.
     pub workload: Workload,
-    /// What every gripper is to do.
+    /// Task of every gripper.
     pub task: Task,
+}
+
+/// Whether layouts with the jaws on parallelograms are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Parallel {
+    /// They are made, too.
+    With,
+    /// They are not made.
+    Without,
+    /// Only they are made.
+    Only,
+}
+
+impl Parallel {
+    /// All choices with their words.
+    pub const ALL: [(Parallel, &'static str); 3] = [
+        (Parallel::With, "with"),
+        (Parallel::Without, "without"),
+        (Parallel::Only, "only"),
+    ];
+
+    fn allows(self, form: Form) -> bool {
+        match self {
+            Parallel::With => true,
+            Parallel::Without => !form.parallel,
+            Parallel::Only => form.parallel,
+        }
+    }
 }
 
 impl Default for Spec {
     fn default() -> Self {
-        let words = |w: &[&str]| w.iter().map(|&s| s.to_owned()).collect();
         let limits = Limits::default();
         Spec {
             links: "4..6".to_owned(),
             jaws: 2,
-            inputs: words(&["slide", "turn"]),
-            symmetries: words(&["generic", "mirror", "half-turn", "threefold"]),
-            parallel: "with".to_owned(),
-            one_pin: "without".to_owned(),
+            inputs: Input::ALL.map(|(input, _)| input).to_vec(),
+            symmetries: Symmetry::ALL.map(|(symmetry, _)| symmetry).to_vec(),
+            parallel: Parallel::With,
             pairs: Vec::new(),
             at_most: 3,
             generic_pairs: false,
-            flat_faces: "without".to_owned(),
             classics: false,
-            options: words(&[
-                "cylindrical",
-                "universal",
-                "universal-y",
-                "spherical",
-                "sphere-in-cylinder",
-            ]),
+            options: OPTIONS[..5].iter().map(|&o| o.to_owned()).collect(),
             unloading: Vec::new(),
             ideas: 10,
             seed: 1,
@@ -97,36 +195,6 @@ impl Default for Spec {
             task: Task::default(),
         }
     }
-}
-
-/// A number, or a range with its end, "4..10": empty where it ends before it begins.
-///
-/// # Errors
-/// The part that is no number.
-pub fn range(text: &str) -> Result<RangeInclusive<usize>, &str> {
-    let number = |t: &'_ str| t.trim().parse::<usize>().ok();
-    let (from, to) = text.split_once("..").unwrap_or((text, text));
-    let to = to.strip_prefix('=').unwrap_or(to);
-    Ok(number(from).ok_or(from)?..=number(to).ok_or(to)?)
-}
-
-fn word<T: Copy>(
-    what: &'static str,
-    word: &str,
-    all: &[(T, &'static str)],
-) -> Result<T, SpecError> {
-    let found = all.iter().find(|(_, w)| *w == word);
-    found.map(|(t, _)| *t).ok_or_else(|| SpecError::Word {
-        what,
-        word: word.to_owned(),
-        known: all.iter().map(|(_, w)| (*w).to_owned()).collect(),
-    })
-}
-
-fn within(what: &'static str, x: f64, from: i64, to: i64) -> Result<(), SpecError> {
-    #[allow(clippy::cast_precision_loss, reason = "small")]
-    let ok = x >= from as f64 && x <= to as f64;
-    ok.then_some(()).ok_or(SpecError::Range { what, from, to })
 }
 
 /// Options that a hinge may be replaced by.
@@ -141,25 +209,44 @@ const OPTIONS: [&str; 8] = [
     "slotted",
 ];
 
-/// Words for layouts that are made beside others.
-const WITH: [(Option<bool>, &str); 3] = [
-    (None, "with"),
-    (Some(false), "without"),
-    (Some(true), "only"),
-];
+/// Parses a number, or a range with its end such as "4..10". The range is empty if it ends before it begins.
+///
+/// # Errors
+/// Returns the part that is not a number.
+pub fn range(text: &str) -> Result<RangeInclusive<usize>, &str> {
+    let number = |t: &'_ str| t.trim().parse::<usize>().ok();
+    let (from, to) = text.split_once("..").unwrap_or((text, text));
+    let to = to.strip_prefix('=').unwrap_or(to);
+    Ok(number(from).ok_or(from)?..=number(to).ok_or(to)?)
+}
+
+/// Returns an error unless a word is known.
+fn check_word(what: &'static str, word: &str, known: &[&str]) -> Result<(), SpecError> {
+    let wrong = || SpecError::Word {
+        what,
+        word: word.to_owned(),
+        known: known.iter().map(|&w| w.to_owned()).collect(),
+    };
+    known.contains(&word).then_some(()).ok_or_else(wrong)
+}
+
+fn within(what: &'static str, x: f64, from: i64, to: i64) -> Result<(), SpecError> {
+    #[allow(clippy::cast_precision_loss, reason = "small")]
+    let ok = x >= from as f64 && x <= to as f64;
+    ok.then_some(()).ok_or(SpecError::Range { what, from, to })
+}
 
 impl Spec {
-    /// The numbers of links.
+    /// Returns the numbers of links.
     ///
     /// # Errors
-    /// Where they are no range that is known.
+    /// Returns an error if they are not a range for which structures are known.
     pub fn links(&self) -> Result<RangeInclusive<usize>, SpecError> {
         let wrong = || SpecError::Links(self.links.clone());
         let all = range(&self.links).map_err(|_| wrong())?;
-        let least = if self.pairs.is_empty() { 4 } else { 3 };
-        let known = *all.start() >= least && *all.end() <= MOST_LINKS;
-        let some = known && all.clone().any(|n| n % 2 == 0 || !self.pairs.is_empty());
-        let paired = !self.pairs.is_empty() || self.one_pin()? != Some(false);
+        let paired = !self.pairs.is_empty();
+        let known = *all.start() >= if paired { 3 } else { 4 } && *all.end() <= MOST_LINKS;
+        let some = known && all.clone().any(|n| n % 2 == 0 || paired);
         let many = self.jaws == 2 || self.generic_pairs;
         if some && many && paired && *all.end() > MOST_PAIRED {
             return Err(SpecError::PairedLinks);
@@ -167,147 +254,87 @@ impl Spec {
         some.then_some(all).ok_or_else(wrong)
     }
 
-    /// The pairs beside hinges.
-    ///
-    /// # Errors
-    /// Where a word means nothing.
-    pub fn pairs(&self) -> Result<Vec<PairKind>, SpecError> {
-        let others = PairKind::ALL.iter().filter(|k| k.0 != PairKind::Hinge);
-        let known: Vec<(PairKind, &str)> = others.map(|k| (k.0, k.1)).collect();
-        let kinds = self.pairs.iter().map(|w| word("pairs", w, &known));
-        kinds.collect()
+    /// Returns those of some forms that are asked for.
+    fn asked(&self, forms: impl Iterator<Item = (Input, Form)>) -> Vec<(Input, Form)> {
+        let asked = |(input, form): &(Input, Form)| {
+            self.inputs.contains(input)
+                && self.symmetries.contains(&form.symmetry)
+                && self.parallel.allows(*form)
+        };
+        forms.filter(asked).collect()
     }
 
     /// Returns those of the forms asked for in which structures with pairs are laid out.
-    ///
-    /// # Errors
-    /// Returns an error if a word means nothing.
-    pub(crate) fn paired_forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
-        if self.pairs()?.is_empty() && self.one_pin()? == Some(false) {
-            return Ok(Vec::new());
+    #[must_use]
+    pub(crate) fn paired_forms(&self) -> Vec<(Input, Form)> {
+        if self.pairs.is_empty() {
+            return Vec::new();
         }
-        let (inputs, symmetries) = self.words()?;
-        let parallel = self.parallelograms()?;
-        let asked = |s: &Symmetry| match s {
-            Symmetry::Mirror | Symmetry::HalfTurn => true,
-            Symmetry::Generic => self.generic_pairs,
-            Symmetry::Threefold => false,
-        };
-        let forms = symmetries.into_iter().filter(asked).map(Form::of_symmetry);
+        let generic = self.generic_pairs.then_some(Symmetry::Generic);
+        let symmetries = [Symmetry::Mirror, Symmetry::HalfTurn].into_iter();
+        let forms = symmetries.chain(generic).map(Form::of_symmetry);
         let forms = forms.cartesian_product([false, true]);
         let forms = forms.map(|(f, parallel)| Form { parallel, ..f });
-        let forms = forms.filter(|f| parallel.is_none_or(|p| p == f.parallel));
-        let forms = forms.filter(|f| f.suits(self.jaws));
-        let forms: Vec<Form> = forms.collect();
-        Ok(inputs.into_iter().cartesian_product(forms).collect())
+        let forms = forms.filter(|f| f.suits(self.jaws)).collect_vec();
+        let inputs = Input::ALL.into_iter().map(|(input, _)| input);
+        self.asked(inputs.cartesian_product(forms))
     }
 
-    /// The forms of two jaws whose sides stand thrice in structures of three jaws that are asked for: what turns in the plane with the
-    /// pairs that are asked for, and what slides along an axis with these or with hinges alone.
-    ///
-    /// # Errors
-    /// Where a word means nothing.
-    pub(crate) fn threefold_forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
-        let (inputs, symmetries) = self.words()?;
-        if self.jaws != 3 || !symmetries.contains(&Symmetry::Threefold) {
-            return Ok(Vec::new());
+    /// Returns the forms of two jaws whose sides are repeated three times in the structures of three jaws asked for. They turn
+    /// in the plane with the pairs asked for, or slide along an axis with these or with only hinges.
+    #[must_use]
+    pub(crate) fn threefold_forms(&self) -> Vec<(Input, Form)> {
+        if self.jaws != 3 || !self.symmetries.contains(&Symmetry::Threefold) {
+            return Vec::new();
         }
-        let pairs = !self.pairs()?.is_empty();
-        let parallel = self.parallelograms()?;
         let turning = (Input::Turn, Form::of_symmetry(Symmetry::HalfTurn));
+        let turning = (!self.pairs.is_empty()).then_some(turning);
         let sliding = [false, true].map(|parallel| {
             let form = Form::of_symmetry(Symmetry::Mirror);
             (Input::Slide, Form { parallel, ..form })
         });
-        let all = std::iter::once(turning).filter(|_| pairs).chain(sliding);
-        let asked = |(input, form): &(Input, Form)| {
-            inputs.contains(input) && parallel.is_none_or(|p| p == form.parallel)
-        };
-        Ok(all.filter(asked).collect())
-    }
-
-    fn has_paired_forms(&self) -> Result<bool, SpecError> {
-        Ok(!self.paired_forms()?.is_empty() || !self.threefold_forms()?.is_empty())
-    }
-
-    /// Whether layouts with the jaws on parallelograms are asked for, where one of both is.
-    fn parallelograms(&self) -> Result<Option<bool>, SpecError> {
-        word("parallel", &self.parallel, &WITH)
-    }
-
-    /// Whether layouts with hinges on one pin are asked for, where one of both is.
-    pub(crate) fn one_pin(&self) -> Result<Option<bool>, SpecError> {
-        word("one_pin", &self.one_pin, &WITH)
-    }
-
-    /// Whether flat faces are asked for, where one of both is.
-    pub(crate) fn flat_faces(&self) -> Result<Option<bool>, SpecError> {
-        word("flat_faces", &self.flat_faces, &WITH)
-    }
-
-    fn words(&self) -> Result<(Vec<Input>, Vec<Symmetry>), SpecError> {
-        let inputs = self.inputs.iter();
-        let inputs = inputs
-            .map(|w| word("inputs", w, &Input::ALL))
-            .try_collect()?;
-        let symmetries = self.symmetries.iter();
-        let symmetries = symmetries.map(|w| word("symmetries", w, &Symmetry::ALL));
-        Ok((inputs, symmetries.try_collect()?))
+        let all = turning.into_iter().chain(sliding);
+        all.filter(|(input, form)| self.inputs.contains(input) && self.parallel.allows(*form))
+            .collect()
     }
 
     /// Returns the forms in which structures that have only hinges are laid out, each with its input.
-    ///
-    /// # Errors
-    /// Returns an error if a word means nothing, or if no form is left.
-    pub fn forms(&self) -> Result<Vec<(Input, Form)>, SpecError> {
-        let (inputs, symmetries) = self.words()?;
-        let parallel = self.parallelograms()?;
-        let alone = [self.one_pin()?, self.flat_faces()?].contains(&Some(true));
-        let asked = |(input, f): &(Input, Form)| {
-            !alone
-                && inputs.contains(input)
-                && symmetries.contains(&f.symmetry)
-                && parallel.is_none_or(|p| p == f.parallel)
-                && f.suits(self.jaws)
-        };
-        let forms: Vec<(Input, Form)> = Form::of_hinges().filter(asked).collect();
-        if forms.is_empty() && !self.has_paired_forms()? {
-            return Err(SpecError::Nothing);
-        }
-        Ok(forms)
+    #[must_use]
+    pub fn forms(&self) -> Vec<(Input, Form)> {
+        self.asked(Form::of_hinges().filter(|(_, f)| f.suits(self.jaws)))
     }
 
-    /// What may be done to a hinge.
+    /// Returns the joint types that may replace or extend a hinge.
     ///
     /// # Errors
-    /// Where a name is none.
+    /// Returns an error if a name is unknown.
     pub fn menu(&self) -> Result<Menu, SpecError> {
-        let known: Vec<(&str, &str)> = OPTIONS.map(|o| (o, o)).into();
         // A slide along the hinge's axis does not double its turn.
-        let in_series = [&known[..], &[("prismatic", "prismatic")]].concat();
-        let entry = |what, name: &String, known| {
-            Ok(match word(what, name, known)? {
-                "universal-y" => OptionEntry::Table(Box::new(OptionTable {
-                    kind: Some("universal".to_owned()),
-                    reference: Some([0, 1, 0].map(crate::file::schema::Coordinate::Integer)),
-                    name: Some("universal-y".to_owned()),
-                    ..OptionTable::default()
-                })),
-                plain => OptionEntry::Word(plain.to_owned()),
-            })
+        let in_series = [&OPTIONS[..], &["prismatic"]].concat();
+        let entry = |name: &String| match &name[..] {
+            "universal-y" => OptionEntry::Table(Box::new(OptionTable {
+                kind: Some("universal".to_owned()),
+                reference: Some([0, 1, 0].map(Coordinate::Integer)),
+                name: Some("universal-y".to_owned()),
+                ..OptionTable::default()
+            })),
+            _ => OptionEntry::Word(name.clone()),
         };
-        let mut options = vec![OptionEntry::Word("revolute".to_owned())];
-        for name in self.options.iter().filter(|n| *n != "revolute").unique() {
-            options.push(entry("options", name, &known)?);
+        let present = "revolute".to_owned();
+        let options = self.options.iter().filter(|n| **n != present).unique();
+        for name in options.clone() {
+            check_word("options", name, &OPTIONS)?;
         }
-        let unloading = self.unloading.iter().unique();
-        let unloading = unloading
-            .map(|n| entry("unloading", n, &in_series))
-            .try_collect()?;
-        Ok(Menu { options, unloading })
+        for name in &self.unloading {
+            check_word("unloading", name, &in_series)?;
+        }
+        Ok(Menu {
+            options: [&present].into_iter().chain(options).map(entry).collect(),
+            unloading: self.unloading.iter().unique().map(entry).collect(),
+        })
     }
 
-    /// What a layout must be like.
+    /// Returns the requirements on a layout.
     #[must_use]
     pub fn limits(&self) -> Limits {
         Limits {
@@ -317,10 +344,10 @@ impl Spec {
         }
     }
 
-    /// Whether all of it can be done.
+    /// Checks the whole specification.
     ///
     /// # Errors
-    /// The first thing that is wrong.
+    /// Returns the first fault.
     pub fn check(&self) -> Result<(), SpecError> {
         #[allow(clippy::cast_precision_loss, reason = "small")]
         let whole = |what, n: usize, from, to| within(what, n as f64, from, to);
@@ -341,15 +368,19 @@ impl Spec {
             return Err(SpecError::NoLoad);
         }
         self.check_task()?;
-        if self.jaws == 3 && self.one_pin()? != Some(false) {
-            return Err(SpecError::TwoJaws("one_pin"));
-        }
-        if self.generic_pairs && !self.words()?.1.contains(&Symmetry::Generic) {
+        if self.generic_pairs && !self.symmetries.contains(&Symmetry::Generic) {
             return Err(SpecError::Freely);
         }
+        for pair in &self.pairs {
+            let others = PairKind::ALL.map(|(_, word, _)| word);
+            check_word("pairs", pair.name(), &others[1..])?;
+        }
         self.links()?;
-        self.forms()?;
-        if !self.pairs()?.is_empty() && !self.has_paired_forms()? {
+        let is_paired = !self.paired_forms().is_empty() || !self.threefold_forms().is_empty();
+        if !is_paired && self.forms().is_empty() {
+            return Err(SpecError::Nothing);
+        }
+        if !is_paired && !self.pairs.is_empty() {
             return Err(SpecError::PairedForms);
         }
         self.menu().map(|_| ())
@@ -380,20 +411,19 @@ impl Spec {
         within("guide", t.friction.guide, 1, 10_000)
     }
 
-    /// The specification as TOML: the same for the same catalogue, whatever the order of its words.
+    /// Returns the specification as TOML: the same for the same catalogue, whatever the order of its words.
     #[must_use]
     pub fn canonical(&self) -> String {
-        let mut same = self.clone();
-        for list in [
-            &mut same.inputs,
-            &mut same.symmetries,
-            &mut same.options,
-            &mut same.unloading,
-            &mut same.pairs,
-        ] {
+        fn sort<T: Ord>(list: &mut Vec<T>) {
             list.sort();
             list.dedup();
         }
+        let mut same = self.clone();
+        sort(&mut same.inputs);
+        sort(&mut same.symmetries);
+        sort(&mut same.pairs);
+        sort(&mut same.options);
+        sort(&mut same.unloading);
         toml::to_string(&same).unwrap_or_default()
     }
 }

@@ -21,7 +21,7 @@ CREATE TABLE structures (
   symmetry TEXT NOT NULL,          -- generic, mirror, half-turn, threefold; -but-input where it carries the input joint elsewhere
   parallel INTEGER NOT NULL,       -- 1: each jaw stands on a parallelogram
   jaws_at_frame INTEGER NOT NULL,  -- how many jaws are joined to the frame
-  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and nothing less is; of two jaws and hinges alone
+  truss INTEGER NOT NULL,          -- 1: a truss with a part hinged to both jaws, and no smaller part is; only of two jaws and hinges
   graph_symmetric INTEGER NOT NULL,
   no_layout TEXT                   -- why it has no layout; NULL where it has one
 ) WITHOUT ROWID;
@@ -29,7 +29,7 @@ CREATE TABLE layouts (
   structure TEXT PRIMARY KEY REFERENCES structures(id),
   mechanism TEXT NOT NULL,         -- the mechanism file, TOML
   start INTEGER NOT NULL,          -- the start of the search for places it was found from
-  crossings INTEGER NOT NULL,      -- of links, and pins on links they are no part of
+  crossings INTEGER NOT NULL,      -- of links, and of pins on other links
   link_ratio REAL NOT NULL,        -- longest link over shortest
   area REAL NOT NULL,              -- of the box round pins, tips and pitch circles, mm2
   opening_min REAL NOT NULL,       -- of what is reached of the task's stroke, mm; of three jaws twice the tips' mean distance from the middle
@@ -53,12 +53,12 @@ CREATE TABLE layouts (
   ends_opening TEXT,
   mobility INTEGER NOT NULL,       -- W as built
   redundant INTEGER NOT NULL,      -- sigma as built
-  finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
+  finite TEXT NOT NULL,            -- the full-cycle mobility, and how it is known
   determinate NOT NULL,            -- variants with sigma = 0: a number, or its digits as text beyond 63 bits
   determinate_w1 NOT NULL,         -- of these, W = 1
   orbits_w1 NOT NULL,              -- of these, up to the symmetry of the layout
-  certainty TEXT NOT NULL,         -- exact, or at least
-  best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, where the certainty is at least
+  certainty TEXT NOT NULL,         -- "exact" or "at least"
+  best_cost REAL                   -- of the cheapest variant with sigma = 0 and W = 1; of those found, if the certainty is "at least"
 ) WITHOUT ROWID;
 CREATE TABLE strokes (             -- what a layout does of the task it was made for
   structure TEXT PRIMARY KEY REFERENCES structures(id),
@@ -71,7 +71,7 @@ CREATE TABLE strokes (             -- what a layout does of the task it was made
   efficiency REAL NOT NULL,        -- least over the stroke with the friction of the task; to a half it holds itself
   width REAL NOT NULL,             -- of the box round pins, tips and pitch circles over the stroke, mm
   height REAL NOT NULL,
-  margin_closing REAL NOT NULL,    -- how far on the jaws could go beyond the task before the stroke ends, mm; a fifth of it at most
+  margin_closing REAL NOT NULL,    -- how far the jaws could go beyond the task before the stroke ends, mm; at most a fifth of it
   margin_opening REAL NOT NULL,
   shortfall TEXT                   -- the worst of what the task asks and this does not; NULL where it does all of it
 ) WITHOUT ROWID;
@@ -98,7 +98,7 @@ CREATE TABLE classics ( -- well-known schemes that have a structure
   about TEXT NOT NULL,             -- what it is
   PRIMARY KEY (structure, id)
 ) WITHOUT ROWID;
-CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their own files
+CREATE TABLE drawn (               -- mechanisms that were drawn, searched with the options of their files
   id TEXT PRIMARY KEY,             -- drawn-, and the beginning of the SHA-256 of the file
   name TEXT NOT NULL,
   description TEXT NOT NULL,
@@ -106,23 +106,23 @@ CREATE TABLE drawn (               -- mechanisms that were drawn, searched with 
   joints INTEGER NOT NULL,
   contours INTEGER NOT NULL,
   mode TEXT NOT NULL,              -- spatial, or planar: nothing out of the plane is counted, so that less is redundant
-  input TEXT,                      -- slide, turn; NULL where it is not driven by one joint of one freedom
+  input TEXT,                      -- slide, turn; NULL unless one joint of one freedom is driven
   mechanism TEXT NOT NULL,         -- the mechanism file, TOML
   mobility INTEGER NOT NULL,       -- W as built
   redundant INTEGER NOT NULL,      -- sigma as built
-  finite TEXT NOT NULL,            -- the mobility that is really there, and how that is known
+  finite TEXT NOT NULL,            -- the full-cycle mobility, and how it is known
   determinate NOT NULL,            -- variants with sigma = 0
-  admissible NOT NULL,             -- of these, those that keep the output motion and have no more mobility than is there at most
-  certainty TEXT NOT NULL,         -- exact, or at least
+  admissible NOT NULL,             -- of these, those that keep the output motion and have at most the full-cycle mobility
+  certainty TEXT NOT NULL,         -- "exact" or "at least"
   ideas_asked INTEGER NOT NULL,    -- how many ideas were to be kept
-  best_cost REAL                   -- of the cheapest of these; of those found, where the certainty is at least
+  best_cost REAL                   -- of the cheapest of these; of those found, if the certainty is "at least"
 ) WITHOUT ROWID;
 CREATE TABLE counts (
   structure TEXT NOT NULL,         -- of structures, or of drawn
   mobility INTEGER NOT NULL,
   changes INTEGER NOT NULL,
   variants NOT NULL,               -- determinate variants of this mobility and so many changes
-  orbits NOT NULL,                 -- these up to the symmetry of the layout, or that a drawn file names; as many where there is none
+  orbits NOT NULL,                 -- these up to the symmetry of the layout, or of a drawn file; the same number without a symmetry
   symmetric NOT NULL,              -- of the variants those that are their own image, an orbit each; the rest are two to an orbit, three if threefold
   PRIMARY KEY (structure, mobility, changes)
 ) WITHOUT ROWID;
@@ -130,10 +130,10 @@ CREATE TABLE ideas (
   structure TEXT NOT NULL,         -- of structures, or of drawn
   place INTEGER NOT NULL,          -- from 1: symmetric ones first, then the cheapest, which is always among them
   changes TEXT NOT NULL,           -- the first variant of the idea: jaw-a.link-1, jaw-b.link-3 -> spherical
-  choices TEXT NOT NULL,           -- its options, joint by joint, 0 for the present one
+  choices TEXT NOT NULL,           -- its options, joint by joint, 0 if unchanged
   cost REAL NOT NULL,
   change_count INTEGER NOT NULL,
-  variants NOT NULL,               -- how many variants the idea stands for; at least, where the layout's certainty says so
+  variants NOT NULL,               -- how many variants the idea represents; a lower bound if the layout's certainty is "at least"
   peak_force REAL,                 -- greatest joint force over capacity under the workload
   peak_moment REAL,
   output_error REAL,               -- of the jaws from the joints' clearances, mm
@@ -145,7 +145,7 @@ SELECT s.id, s.links, s.input, s.symmetry, s.parallel, l.jaw_a_motion AS jaws, l
   k.transmission, k.pin_force, k.efficiency, l.travel, k.width, k.height, l.best_cost AS cost, l.determinate_w1 AS redesigns,
   k.reached, k.shortfall, coalesce(p.slides, s.input = 'slide') AS slides, coalesce(p.gears, 0) AS gears,
   coalesce(p.slots, 0) AS slots, b.planes,
-  -- of all links and joints as built, and of the cheapest redesign beside them, in revolute joints
+  -- of all links and joints as built and of the cheapest redesign, in revolute joints
   l.best_cost + (SELECT sum(price * CASE part WHEN 'link' THEN s.links WHEN 'slide' THEN coalesce(p.slides, s.input = 'slide')
     WHEN 'gear' THEN coalesce(p.gears, 0) WHEN 'slot' THEN coalesce(p.slots, 0)
     ELSE s.joints - coalesce(p.slides + p.gears + p.slots, s.input = 'slide') END) FROM prices) AS price,

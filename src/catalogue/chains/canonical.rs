@@ -1,11 +1,11 @@
-//! A numbering of a graph's vertices that does not depend on the one it came with, and its automorphisms.
+//! A canonical numbering of a graph's vertices, and its automorphisms.
 //!
-//! Vertices are told apart by how many neighbours of which kind they have, again and again; where that leaves some alike,
-//! one of them is set apart and the telling goes on, for each of them in turn. Of the numberings so found, the one whose
-//! matrix is the greatest counts, and all that give this matrix differ by automorphisms (`[McKay 1981]`, without his
-//! pruning: chains have few automorphisms).
+//! Vertices are distinguished by their numbers of neighbours of each kind, repeatedly. If some remain equivalent, one of them
+//! is set apart and the refinement continues, for each of them in turn. The numbering with the greatest matrix is canonical,
+//! and all numberings with this matrix differ by automorphisms (`[McKay 1981]`, without pruning, because chains have few
+//! automorphisms).
 
-/// A graph with weighted edges; 0 is no edge.
+/// A graph with weighted edges. A weight of 0 means that there is no edge.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Weighted {
     vertices: usize,
@@ -13,7 +13,7 @@ pub struct Weighted {
 }
 
 impl Weighted {
-    /// A graph without edges.
+    /// Creates a graph without edges.
     #[must_use]
     pub fn new(vertices: usize) -> Weighted {
         Weighted {
@@ -22,13 +22,13 @@ impl Weighted {
         }
     }
 
-    /// Number of vertices.
+    /// Returns the number of vertices.
     #[must_use]
     pub fn vertices(&self) -> usize {
         self.vertices
     }
 
-    /// The weight of an edge.
+    /// Returns the weight of an edge.
     #[must_use]
     pub fn weight(&self, u: usize, v: usize) -> u8 {
         self.weight[u * self.vertices + v]
@@ -40,7 +40,7 @@ impl Weighted {
         self.weight[v * self.vertices + u] = weight;
     }
 
-    /// The sum of the weights at a vertex.
+    /// Returns the sum of the weights at a vertex.
     #[must_use]
     pub fn degree(&self, v: usize) -> usize {
         self.row(v).iter().map(|&w| usize::from(w)).sum()
@@ -50,7 +50,7 @@ impl Weighted {
         &self.weight[v * self.vertices..(v + 1) * self.vertices]
     }
 
-    /// The graph with so many vertices more, joined to none.
+    /// Returns the graph with `new` more vertices, joined to none.
     #[must_use]
     pub(super) fn widened(&self, new: usize) -> Weighted {
         let mut out = Weighted::new(self.vertices + new);
@@ -62,7 +62,7 @@ impl Weighted {
         out
     }
 
-    /// The same graph with its vertices in another order.
+    /// Returns the graph with its vertices in another order.
     #[must_use]
     pub(crate) fn renumbered(&self, order: &[usize]) -> Weighted {
         let pairs = order
@@ -80,7 +80,7 @@ impl Weighted {
 pub struct Canonical {
     /// The graph so numbered: equal for two graphs exactly where they are isomorphic.
     pub graph: Weighted,
-    /// Which vertex stands at each place.
+    /// The vertex at each place.
     pub order: Vec<usize>,
     /// Every automorphism as the images of the vertices, the identity among them.
     pub automorphisms: Vec<Vec<usize>>,
@@ -118,7 +118,7 @@ pub fn canonical(graph: &Weighted) -> Canonical {
     }
 }
 
-/// After all neighbours of a vertex: less than any, so that of two lists that begin alike the shorter is the lesser.
+/// Fills a row after all neighbours of a vertex. It is less than any of them, so a prefix of a list is less than the list.
 const NOTHING: u32 = 0;
 
 struct LabelSearch<'a> {
@@ -132,7 +132,7 @@ struct LabelSearch<'a> {
 }
 
 impl LabelSearch<'_> {
-    /// Tells vertices of one cell apart by the cells of their neighbours until that changes nothing. A cell's number is the
+    /// Distinguishes the vertices of each cell by the cells of their neighbours until nothing changes. A cell's number is the
     /// place of its first vertex.
     fn refine(&mut self, cells: &mut [usize]) {
         let n = self.graph.vertices;

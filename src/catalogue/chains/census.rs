@@ -260,7 +260,7 @@ impl Census {
 /// Returns the counts over all chains of hinges with N links and this mobility. Grippers are counted if the mobility is 1.
 ///
 /// # Errors
-/// As [`visit_chains`].
+/// Returns an error in the same cases as [`visit_chains`].
 pub fn census(links: usize, mobility: usize, grippers: bool) -> Result<Census, ChainsError> {
     let all = Mutex::new(Census::default());
     visit_chains(links, mobility, &|chain| {

@@ -4,7 +4,7 @@ use crate::chains::PairKind;
 use crate::chains::canonical::{Canonical, Weighted, canonical};
 use petgraph::unionfind::UnionFind;
 
-/// Most links of a chain of pairs: sets of its links are the bits of a word, and each set is looked at.
+/// Maximum number of links of a chain of pairs. Every set of its links is examined, as the bits of a word.
 pub(crate) const MOST_LINKS: usize = 12;
 
 /// A chain: which links are joined, and by what.
@@ -13,13 +13,13 @@ pub struct Chain {
     pairs: Weighted,
 }
 
-/// Two links, the lesser first.
+/// Returns two links in ascending order.
 #[must_use]
 pub(crate) fn ordered([u, v]: [usize; 2]) -> [usize; 2] {
     [u.min(v), u.max(v)]
 }
 
-/// Where an automorphism takes two links, the lesser first.
+/// Returns the images of two links under an automorphism, in ascending order.
 #[must_use]
 pub(crate) fn carried(links: [usize; 2], by: &[usize]) -> [usize; 2] {
     ordered(links.map(|l| by[l]))
@@ -35,7 +35,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Whether it joins a link to another.
+    /// Returns true if it joins a link to another.
     #[must_use]
     pub(crate) fn is_at(&self, link: usize) -> bool {
         self.links.contains(&link)
@@ -91,19 +91,19 @@ impl Chain {
         self
     }
 
-    /// Number of links.
+    /// Returns the number of links.
     #[must_use]
     pub fn links(&self) -> usize {
         self.pairs.vertices()
     }
 
-    /// What joins two links.
+    /// Returns the pair that joins two links.
     #[must_use]
     pub fn between(&self, u: usize, v: usize) -> Option<PairKind> {
         PairKind::of_weight(self.pairs.weight(u, v))
     }
 
-    /// The joints, by their greater link and then by the lesser.
+    /// Returns the joints, by their greater link and then by the lesser.
     #[must_use]
     pub fn joints(&self) -> Vec<Joint> {
         let pairs = (0..self.links()).flat_map(|v| (0..v).map(move |u| [u, v]));
@@ -112,7 +112,7 @@ impl Chain {
         joints.map(|(links, pair)| Joint { links, pair }).collect()
     }
 
-    /// The joints as they are made: two slots are two.
+    /// Returns the joints as built: two slots are two joints.
     #[must_use]
     pub fn joints_made(&self) -> Vec<Joint> {
         let made = |joint: Joint| match joint.pair {
@@ -141,7 +141,7 @@ impl Chain {
         (3 * (self.links() - 1)).saturating_sub(taken)
     }
 
-    /// A letter for what joins each two links, (0, 1), (0, 2), (1, 2) and so on, and - where nothing does.
+    /// Returns a letter for the pair of each two links, (0, 1), (0, 2), (1, 2) and so on, or - if they are not joined.
     #[must_use]
     pub fn code(&self) -> String {
         let pairs = (0..self.links()).flat_map(|v| (0..v).map(move |u| (u, v)));
@@ -149,7 +149,7 @@ impl Chain {
         pairs.map(letter).collect()
     }
 
-    /// The chain of a code; `None` where it is none.
+    /// Returns the chain of a code, or `None` if the code is invalid.
     #[must_use]
     pub fn of_code(links: usize, code: &str) -> Option<Chain> {
         let pairs = (0..links).flat_map(|v| (0..v).map(move |u| [u, v]));
@@ -167,14 +167,14 @@ impl Chain {
         (letters.next().is_none()).then(|| Chain::new(links, joints))
     }
 
-    /// How many joints are of a kind.
+    /// Returns the number of joints of a kind.
     #[must_use]
     pub fn count(&self, pair: PairKind) -> usize {
         self.joints().iter().filter(|j| j.pair == pair).count()
     }
 
-    /// Slots between links that slides join already, so that they keep their attitude against each other: these may have flat faces, as
-    /// a wedge in its guide has.
+    /// Returns the slots between links that slides join already, so that they do not rotate relative to each other. These may have
+    /// flat faces, as a wedge in its guide has.
     ///
     /// # Complexity
     /// O(m) for m joints.
@@ -191,7 +191,7 @@ impl Chain {
         joints.into_iter().filter(flat).collect()
     }
 
-    /// The mobility of every set of links, given as bits, with the joints between them: the place in the list is the set.
+    /// Returns the mobility of every set of links with the joints between them. The index is the set, as bits.
     ///
     /// # Complexity
     /// O(2ⁿ) for n links.
@@ -212,7 +212,7 @@ impl Chain {
         out
     }
 
-    /// Whether every gear pair has a carrier: a link that is hinged to both gears, or to the pinion and slides on the rack.
+    /// Returns true if every gear pair has a carrier: a link that is hinged to both gears, or to the pinion and slides on the rack.
     #[must_use]
     pub fn has_carriers(&self) -> bool {
         let is_carrier = |link: usize, [u, v]: [usize; 2]| {
@@ -226,7 +226,7 @@ impl Chain {
         })
     }
 
-    /// The automorphisms as the images of the links, the identity among them.
+    /// Returns the automorphisms as images of the links, including the identity.
     ///
     /// # Complexity
     /// As of [`canonical`].

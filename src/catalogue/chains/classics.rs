@@ -15,22 +15,22 @@ const TEXT: &str = include_str!("classics.toml");
 /// A scheme that is well known.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Classic {
-    /// A word for it.
+    /// Its id.
     pub id: String,
-    /// What it is.
+    /// Its description.
     pub about: String,
-    /// Its structure; flat faces stand in it as slots.
+    /// Its structure, with flat faces as slots.
     #[serde(skip)]
     pub structure: PairStructure,
-    /// What it is beside its structure.
+    /// Properties in addition to its structure.
     #[serde(skip)]
     pub made_as: MadeAs,
 }
 
-/// What a gripper is beside its structure.
+/// Properties of a gripper in addition to its structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct MadeAs {
-    /// Its slots are flat faces, which are redundant in the plane already.
+    /// Its slots are flat faces, which are redundant even in the plane.
     pub flat: bool,
     /// Its jaws turn in the frame on one pin.
     pub jaws_on_one_pin: bool,
@@ -54,7 +54,7 @@ struct Written {
 }
 
 impl Written {
-    /// The structure; nothing where the entry cannot be read.
+    /// Returns the structure, or `None` if the entry is invalid.
     fn structure(&self) -> Option<PairStructure> {
         let pairs = self.pairs.split(", ").map(|p| p.split(' ').collect_tuple());
         let pairs: Vec<(&str, &str, &str)> = pairs.collect::<Option<_>>()?;
@@ -79,7 +79,7 @@ impl Written {
     }
 }
 
-/// Every scheme, by its word, with its key.
+/// All schemes by id, with their keys.
 static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
     let all: BTreeMap<String, Written> = toml::from_str(TEXT).expect("a test reads it");
     let classic = |(id, entry): (String, Written)| Classic {
@@ -97,7 +97,7 @@ static ALL: LazyLock<(Vec<Classic>, Vec<Weighted>)> = LazyLock::new(|| {
     (all, keys)
 });
 
-/// Every scheme, by its word.
+/// Returns all schemes by id.
 ///
 /// # Panics
 /// Never: the text is part of the program, and a test reads it.
@@ -106,7 +106,7 @@ pub fn classics() -> &'static [Classic] {
     &ALL.0
 }
 
-/// The schemes that have a structure of this key and are made so.
+/// Returns the schemes with a structure of this key and these properties.
 pub fn classics_of(key: &Weighted, made_as: MadeAs) -> impl Iterator<Item = &'static Classic> {
     let (all, keys) = &*ALL;
     let same = keys.iter().positions(move |k| k == key);

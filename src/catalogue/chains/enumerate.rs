@@ -1,18 +1,21 @@
 //! All kinematic chains of a number of links and a mobility, each once.
 //!
-//! A chain is a contracted graph whose edges are strings of joints. Of each contracted graph the ways to share out the
-//! joints are found once up to its symmetries, so that no two chains are isomorphic and none needs to be compared.
+//! A chain is a contracted graph whose edges are strings of joints. The distributions of joints over each contracted graph are
+//! found once up to its symmetries. So no two chains are isomorphic, and none needs to be compared.
+
+pub(in crate::chains) mod contracted;
+mod strings;
 
 use crate::chains::chain::Chain;
-use crate::chains::contracted::contracted_graphs;
+use crate::chains::enumerate::contracted::contracted_graphs;
+use crate::chains::enumerate::strings::Strings;
 use crate::chains::graph6;
-use crate::chains::strings::Strings;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
-/// Links and mobility of which there are no chains to be listed.
+/// Reason why no chains are listed for some links and mobility.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ChainsError {
@@ -27,7 +30,7 @@ pub enum ChainsError {
         /// Mobility.
         mobility: usize,
     },
-    /// Beyond what can be done.
+    /// Beyond the supported range.
     #[error(
         "chains of {links} links and mobility {mobility} are not listed: take 4 to 18 links and a mobility of 1 to 6"
     )]
@@ -39,16 +42,16 @@ pub enum ChainsError {
     },
 }
 
-/// Calls `visit` with every chain of so many links and this mobility, in no particular order and from several threads.
+/// Calls `visit` with every chain of this number of links and mobility, in no particular order and from several threads.
 ///
-/// Without multiple joints; no part is rigid; and no link holds the chain together alone, so that its mobility is not the
-/// sum of two parts' (with a mobility of 1 none does).
+/// Chains have no multiple joints and no rigid part. They stay connected without any one link, so that their mobility is not
+/// the sum of two parts' (with a mobility of 1 this always holds).
 ///
 /// # Errors
-/// Where there are none, or too many.
+/// Returns an error if the chains do not exist or are too many.
 ///
 /// # Complexity
-/// Some microseconds a chain; memory for the contracted graphs alone.
+/// Some microseconds per chain. Memory only for the contracted graphs.
 pub fn visit_chains(
     links: usize,
     mobility: usize,
@@ -64,7 +67,7 @@ pub fn visit_chains(
         return Ok(());
     };
     let joints = twice / 2;
-    // A chain hangs together, and a string has three joints more than it takes away from the mobility at most.
+    // A chain is connected, and a string has at most three joints more than the mobility it takes away.
     let Some(loops) = (joints + 1).checked_sub(links).filter(|l| *l > 0) else {
         return Ok(());
     };
@@ -83,10 +86,10 @@ pub fn visit_chains(
     Ok(())
 }
 
-/// Every chain in canonical numbering, in the order of their codes.
+/// Returns every chain in canonical numbering, in the order of their codes.
 ///
 /// # Errors
-/// As [`visit_chains`].
+/// Returns an error in the same cases as [`visit_chains`].
 pub fn chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> {
     let all = Mutex::new(Vec::new());
     visit_chains(links, mobility, &|chain| {
@@ -100,10 +103,10 @@ pub fn chains(links: usize, mobility: usize) -> Result<Vec<Chain>, ChainsError> 
     Ok(all)
 }
 
-/// How many chains there are.
+/// Returns the number of chains.
 ///
 /// # Errors
-/// As [`visit_chains`].
+/// Returns an error in the same cases as [`visit_chains`].
 ///
 /// # Examples
 /// ```

@@ -4,23 +4,23 @@
 use crate::chains::chain::Chain;
 use thiserror::Error;
 
-/// Most links of a chain.
+/// Maximum number of links of a chain.
 const MOST_LINKS: usize = 20;
 
-/// Characters stand for their code less this.
+/// Code of the character that represents 0.
 const FIRST: u8 = 63;
 
-/// Why a text is no chain.
+/// Reason why a text is not a chain.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Graph6Error {
-    /// A character that graph6 does not use.
+    /// A character outside graph6.
     #[error("{0:?} is not a character of graph6, which has those from ? to ~")]
     Character(char),
     /// Too many vertices, or none.
     #[error("chains have 1 to {MOST_LINKS} links, and this is a graph of {0}")]
     Links(usize),
-    /// Another number of characters than the number of vertices asks for.
+    /// The wrong number of characters for the number of vertices.
     #[error(
         "a graph of {links} vertices has {wanted} characters in graph6, and this text has {found}"
     )]
@@ -34,7 +34,7 @@ pub enum Graph6Error {
     },
 }
 
-/// The text of a chain, numbered as it is.
+/// Returns the text of a chain in its current numbering.
 #[must_use]
 pub fn write(chain: &Chain) -> String {
     let n = chain.links();
@@ -51,7 +51,7 @@ pub fn write(chain: &Chain) -> String {
         .collect()
 }
 
-/// A chain's name for ever: the text of its canonical numbering.
+/// Returns the permanent name of a chain: the text of its canonical numbering.
 #[must_use]
 pub fn code(chain: &Chain) -> String {
     write(&chain.canonical().0)

@@ -1,7 +1,6 @@
-//! Whether a structure moves as a gripper when it is laid out, symmetrically or not.
+//! The motion of a structure as a gripper when it is laid out, symmetrically or not.
 //!
-//! A symmetric graph is not enough: with pins in places that mirror each other the motion is often another, or the drive is
-//! dead.
+//! A symmetric graph is not enough. With pins in mirrored places the motion is often another, or the drive is dead.
 
 use crate::chains::motion::{Swap, motions_in_way};
 use crate::chains::roles::{Roles, Subject};
@@ -9,7 +8,7 @@ use crate::chains::{Input, Symmetry};
 use itertools::Itertools;
 use thiserror::Error;
 
-/// Why a structure is no gripper in nearly all places of a symmetry.
+/// Reason why a structure is not a gripper in nearly all places of a symmetry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NoGripper {
@@ -30,11 +29,11 @@ pub enum NoGripper {
     Together,
 }
 
-/// Whether a gripper laid out so that `swap` is its symmetry has one motion, in which the input moves, and the jaws
+/// Checks that a gripper laid out with the symmetry `swap` has one motion, in which the input moves, and the jaws move
 /// against each other.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Returns the reason if it does not.
 ///
 /// # Complexity
 /// An elimination of 3n columns.
@@ -67,11 +66,11 @@ fn moves(
     }
 }
 
-/// The automorphism by which a structure moves as a gripper: the first of those that carry the jaws to each other, or the
-/// identity where no symmetry is asked for.
+/// Returns the automorphism by which a structure moves as a gripper: the first that carries the jaws to each other, or the
+/// identity for the generic case.
 ///
 /// # Errors
-/// What is wrong with the last of them.
+/// Returns the reason why the last of them fails.
 ///
 /// # Complexity
 /// As `moves` for each.

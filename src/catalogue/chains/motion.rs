@@ -1,11 +1,14 @@
-//! How the links of a chain move where its joints are in nearly any places, symmetric or not.
+//! The motions of a chain's links with its joints in nearly any places, symmetric or not.
 //!
-//! Places are drawn at random in a prime field, so that a motion found missing may be missing by accident with a chance of
-//! some 10^-17, and one found free is free for nearly all places.
+//! Places are drawn at random in a prime field. A motion that is not found may be missing by accident with a chance of some
+//! 10^-17. One that is found exists for nearly all places.
 //!
-//! A hinge is two rows at a point, a slide equal turns and no motion across a direction, a gear pair or a slot one row, a line
-//! of action; two slots are two such rows, and so two at the point where these lines meet. Where a symmetry carries a joint to itself, its place is special: a hinge lies on the mirror line, a slide goes
-//! along it or across, a line of action lies on it or goes across, gears are swapped and their pitch point lies on it. Two slots are never their own image.
+//! A hinge is two rows at a point. A slide means equal turns and no motion across a direction. A gear pair or a slot is one
+//! row, a line of action. Two slots are two such rows, equivalent to two at the point where these lines meet.
+//!
+//! If a symmetry carries a joint to itself, its place is special. A hinge lies on the mirror line. A slide goes along it or
+//! across, and a line of action lies on it or goes across. Gears are swapped, and their pitch point lies on it. Two slots are
+//! never their own image.
 
 use crate::chains::chain::{Chain, Joint, carried};
 use crate::chains::{PairKind, Symmetry};
@@ -21,7 +24,7 @@ const PRIME: u64 = (1 << 61) - 1;
 /// A velocity of a link: its turning, and the velocity of its point at the origin.
 pub type Velocity = [Residue; 3];
 
-/// What a joint forbids its links: rows of (turning, velocity of the point at the origin) of one against the other.
+/// Constraints of a joint: rows of (turning, velocity of the point at the origin) of one link against the other.
 #[derive(Debug, Clone, Copy)]
 enum PairRows {
     Hinge([Residue; 2]),
@@ -58,7 +61,7 @@ impl Draw {
         }
     }
 
-    /// Of a joint that is its own image; nothing where it cannot be. `across` chooses of two ways, where there are two.
+    /// Draws the place of a joint that is its own image. Returns `None` if it cannot be. `across` selects one of two ways.
     fn own_image(&mut self, joint: OwnImage, image: Symmetry, across: bool) -> Option<PairRows> {
         let (zero, one) = (self.field.zero(), self.field.one());
         let straight = [one, zero];
@@ -91,13 +94,13 @@ struct OwnImage {
 }
 
 impl OwnImage {
-    /// Whether there are two ways to lie.
+    /// Returns true if it can lie in two ways.
     fn has_two_ways(self, image: Symmetry) -> bool {
         image == Symmetry::Mirror && matches!(self.pair, PairKind::Slide | PairKind::Slot)
     }
 }
 
-/// What becomes of a direction.
+/// Returns the image of a direction.
 fn turned(field: Field, [x, y]: [Residue; 2], image: Symmetry) -> [Residue; 2] {
     match image {
         Symmetry::Generic => [x, y],
@@ -120,7 +123,7 @@ fn image_of(field: Field, place: PairRows, image: Symmetry) -> PairRows {
     }
 }
 
-/// The motions with link 0 at rest, joints in these places.
+/// Returns the motions with link 0 at rest and the joints in these places.
 fn motions(field: Field, chain: &Chain, places: &[(Joint, PairRows)]) -> Vec<Vec<Velocity>> {
     let (zero, one) = (field.zero(), field.one());
     let mut columns = vec![Vec::with_capacity(2 * places.len()); 3 * (chain.links() - 1)];
@@ -172,7 +175,7 @@ pub fn motion(chain: &Chain) -> Option<Vec<Velocity>> {
     found.pop().filter(|_| found.is_empty())
 }
 
-/// Whether a chain has one motion in nearly all places, in which every two links move against each other.
+/// Returns true if a chain has one motion in nearly all places, in which every two links move against each other.
 ///
 /// # Complexity
 /// As [`motion`].
@@ -181,8 +184,8 @@ pub fn moves_throughout(chain: &Chain) -> bool {
     motion(chain).is_some_and(|m| m.iter().all_unique())
 }
 
-/// The joints with their places, so that the symmetry carries each to the place of its image; `across` has a bit for each
-/// joint that is its own image in one of two ways. Nothing where a joint cannot be its own image.
+/// Returns the joints with places that the symmetry carries to each other. `across` has a bit for each joint that is its own
+/// image in one of two ways. Returns `None` if a joint cannot be its own image.
 fn symmetric_places(
     draw: &mut Draw,
     chain: &Chain,
@@ -218,12 +221,12 @@ fn symmetric_places(
     placed.map(|(joint, place)| Some((joint, place?))).collect()
 }
 
-/// A symmetry: where it carries the links, in two or three steps back to themselves, and how.
+/// A symmetry: the images of the links, which return to themselves after two or three steps, and its kind.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Swap<'a> {
-    /// Where each link goes.
+    /// Image of each link.
     pub links: &'a [usize],
-    /// How places go there.
+    /// Kind of the symmetry, which maps the places.
     pub image: Symmetry,
 }
 
@@ -239,11 +242,11 @@ impl Swap<'_> {
         }
     }
 
-    /// The image of a motion of links.
+    /// Returns the image of a motion of links.
     fn carried(&self, field: Field, motion: &[Velocity]) -> Vec<Velocity> {
         let mut out = vec![[field.zero(); 3]; motion.len()];
         for (link, &[turn, x, y]) in motion.iter().enumerate() {
-            // What a line of action does along a velocity is the same for their images.
+            // The work of a line of action on a velocity is the same for their images.
             out[self.links[link]] = match self.image {
                 Symmetry::Generic => [turn, x, y],
                 Symmetry::Mirror => [field.neg(turn), x, field.neg(y)],
@@ -254,7 +257,7 @@ impl Swap<'_> {
         out
     }
 
-    /// In how many ways its own images among the joints may lie.
+    /// Returns the number of ways in which joints that are their own images may lie.
     fn ways(&self, chain: &Chain) -> u32 {
         let two = |j: &Joint| {
             let own = self.joint(j) == j.links;
@@ -265,8 +268,8 @@ impl Swap<'_> {
     }
 }
 
-/// The motions of a chain laid out symmetrically, `frame` at rest, in one of the ways in which joints that are their own
-/// images may lie; in way 0 slides go along the mirror line. None where a joint cannot be its own image.
+/// Returns the motions of a chain laid out symmetrically, with `frame` at rest. `way` selects how joints that are their own
+/// images lie; in way 0 slides go along the mirror line. Empty if a joint cannot be its own image.
 ///
 /// # Complexity
 /// An elimination of 3n columns for n links.
@@ -303,8 +306,8 @@ pub struct SymmetricWay {
     pub motion: Vec<Velocity>,
 }
 
-/// The ways of lying in which a chain laid out symmetrically has one motion that is its own image, `frame`, which the symmetry
-/// carries to itself, at rest.
+/// Returns the ways in which a chain laid out symmetrically has one motion that is its own image. The symmetry carries `frame`,
+/// which is at rest, to itself.
 ///
 /// # Complexity
 /// An elimination of 3n columns for each way.
@@ -321,7 +324,7 @@ pub(crate) fn symmetric_ways(chain: &Chain, symmetry: Swap<'_>, frame: usize) ->
         .collect()
 }
 
-/// The motions of [`symmetric_ways`].
+/// Returns the motions of [`symmetric_ways`].
 ///
 /// # Complexity
 /// As there.

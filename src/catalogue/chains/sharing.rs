@@ -1,7 +1,7 @@
-//! How kinds are shared out over the joints of a graph, each way once up to the graph's symmetries.
+//! Distributes kinds over the joints of a graph, each way once up to the graph's symmetries.
 //!
-//! Joints that change places under an involution are of one kind: an orbit is chosen at a time, a joint of its own where
-//! nothing is to change places.
+//! Joints that change places under an involution have one kind. So one orbit is chosen at a time; without an involution, an
+//! orbit is one joint.
 
 use crate::chains::PairKind;
 use crate::chains::canonical::Weighted;
@@ -10,17 +10,17 @@ use crate::chains::motion::moves_throughout;
 use itertools::Itertools;
 use std::cmp::Ordering;
 
-/// What may be shared out.
+/// Kinds that may be distributed.
 #[derive(Debug, Clone, Copy)]
 pub struct Menu<'a> {
-    /// Kinds beside hinges.
+    /// Other kinds than hinges.
     pub kinds: &'a [PairKind],
-    /// Orbits of pairs that are not hinges at most.
+    /// Maximum number of orbits of pairs that are not hinges.
     pub most: usize,
 }
 
 impl Menu<'_> {
-    /// Joints of a chain of mobility 1 at most, where so many may be pairs of two freedoms.
+    /// Returns the maximum number of joints of a chain of mobility 1 if `most_higher` may be pairs of two freedoms.
     pub(super) fn most_joints(self, links: usize, most_higher: usize) -> usize {
         let higher = self.kinds.iter().any(|k| k.leaves_two());
         let constraints = 3 * links - 4 + if higher { most_higher } else { 0 };
@@ -28,11 +28,11 @@ impl Menu<'_> {
     }
 }
 
-/// A part that would be rigid with hinges and slides alone.
+/// A part that would be rigid with only hinges and slides.
 struct Tight {
     /// Its joints, as bits.
     joints: u64,
-    /// How many of them have to leave two freedoms at least.
+    /// Minimum number of them that must leave two freedoms.
     least: u32,
 }
 
@@ -51,12 +51,12 @@ pub(super) struct Sharing<'a> {
     joints: Vec<[usize; 2]>,
     orbits: Vec<Orbit>,
     tight: Vec<Tight>,
-    /// Where the symmetries take the joints, and what symmetry it is.
+    /// Images of the joints under each symmetry, with the symmetry.
     images: Vec<(Vec<usize>, &'a Vec<usize>)>,
 }
 
 impl<'a> Sharing<'a> {
-    /// Of a graph with its automorphisms, where `swap` carries joints of one kind to each other.
+    /// Creates the distribution for a graph with its automorphisms, if `swap` carries joints of one kind to each other.
     pub(super) fn new(
         graph: &Weighted,
         automorphisms: &'a [Vec<usize>],
@@ -85,7 +85,7 @@ impl<'a> Sharing<'a> {
         }
     }
 
-    /// How many of the joints leave two freedoms where the mobility is 1.
+    /// Returns the number of joints that leave two freedoms if the mobility is 1.
     fn higher(&self) -> Option<usize> {
         (2 * self.joints.len()).checked_sub((3 * self.links).checked_sub(4)?)
     }
@@ -127,7 +127,7 @@ impl<'a> Sharing<'a> {
         }
     }
 
-    /// Visits the chain of these kinds where it is one and no symmetry makes a lesser list of it.
+    /// Visits the chain of these kinds if it is valid and no symmetry gives a lesser list.
     fn judge(&self, pairs: &[PairKind], visit: &mut impl FnMut(Chain, Vec<&Vec<usize>>)) {
         let mut keeping = Vec::new();
         for (image, automorphism) in &self.images {
@@ -140,7 +140,7 @@ impl<'a> Sharing<'a> {
         let joints = self.joints.iter().zip(pairs);
         let joints = joints.map(|(&links, &pair)| Joint { links, pair });
         let chain = Chain::new(self.links, joints);
-        // Without slides the count of every part has told it already.
+        // Without slides, the count of every part is enough.
         let slides = pairs.contains(&PairKind::Slide);
         if chain.has_carriers() && (!slides || moves_throughout(&chain)) {
             visit(chain, keeping);
@@ -148,7 +148,7 @@ impl<'a> Sharing<'a> {
     }
 }
 
-/// The parts that have more constraints than they may with hinges and slides alone.
+/// Returns the parts that would have too many constraints with only hinges and slides.
 fn tight(links: usize, joints: &[[usize; 2]]) -> Vec<Tight> {
     let parts = 1u32..1 << links;
     let tight = parts.filter(|p| p.count_ones() > 1).filter_map(|part| {

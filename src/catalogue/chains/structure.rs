@@ -17,12 +17,12 @@ pub struct PairStructure {
     pub roles: Roles,
 }
 
-/// What is added to the weight of the driven joint.
+/// Increment of the weight of the driven joint.
 const DRIVEN: u8 = 8;
 
 impl PairStructure {
-    /// The structure in canonical numbering, as a graph whose links and joints weigh more by what they do: equal for two
-    /// structures exactly where they are the same.
+    /// Returns the structure in canonical numbering, as a graph whose weights include the roles of links and joints. Two
+    /// structures have equal keys exactly if they are the same.
     ///
     /// # Complexity
     /// As of [`canonical`].
@@ -31,7 +31,7 @@ impl PairStructure {
         canonical(&self.weighted()).graph
     }
 
-    /// The structure of a key: in canonical numbering, the one of its name.
+    /// Returns the structure of a key, in canonical numbering.
     #[must_use]
     pub fn of_key(key: &Weighted) -> PairStructure {
         let links = 0..key.vertices();
@@ -53,7 +53,7 @@ impl PairStructure {
         }
     }
 
-    /// Whether the input slides.
+    /// Returns true if the input slides.
     #[must_use]
     pub fn slides(&self) -> bool {
         let [u, v] = self.roles.input;
@@ -72,8 +72,8 @@ impl PairStructure {
         out
     }
 
-    /// The name: a letter for each two links, (0, 1), (0, 2), (1, 2) and so on, then frame, input and jaws, in canonical
-    /// numbering; equal for two structures exactly where they are the same.
+    /// Returns the name: a letter for each two links, (0, 1), (0, 2), (1, 2) and so on, then frame, input and jaws, in canonical
+    /// numbering. Two structures have equal names exactly if they are the same.
     #[must_use]
     pub fn name(&self) -> String {
         let PairStructure { chain, roles } = PairStructure::of_key(&self.key());
@@ -81,8 +81,9 @@ impl PairStructure {
         format!("{} f{} i{i}-{k} j{jaws}", chain.code(), roles.frame)
     }
 
-    /// The links of the smallest moving part that holds all roles: all links where the structure is essential, or has in nearly
-    /// all places no one motion in which every two links move, so that counting tells nothing of parts.
+    /// Returns the links of the smallest moving part that contains all roles. These are all links if the structure is essential.
+    /// They are also all links if in nearly all places there is no single motion in which every two links move, because then
+    /// counting says nothing about parts.
     ///
     /// # Complexity
     /// A step for each set of links.
@@ -98,7 +99,7 @@ impl PairStructure {
         links.filter(within).collect()
     }
 
-    /// The structure of some of the links alone, with the joints between them.
+    /// Returns the structure of only some of the links, with the joints between them.
     #[must_use]
     pub fn part(&self, links: &[usize]) -> PairStructure {
         let place = |l: usize| links.iter().position(|&x| x == l);
@@ -115,9 +116,9 @@ impl PairStructure {
         }
     }
 
-    /// The grippers that two links less make: two links in a row that carry nothing else are taken out, and what hangs on them is left.
-    /// A jaw that was one of the two is then a link on which they hung; an input there is the joint of these, where
-    /// they are joined. The mobility by counting stays as it is; whether every two links move is not asked.
+    /// Returns the grippers with two links less: two joined links that carry nothing else are removed. A jaw among them becomes
+    /// a neighbour of the two. An input among them becomes the joint of both neighbours, if these are joined. The mobility by
+    /// counting is unchanged; the motion of every two links is not checked.
     ///
     /// # Complexity
     /// A few steps for each two joined links.
@@ -165,7 +166,7 @@ impl PairStructure {
     }
 }
 
-/// Two joined links that carry nothing else, and the two links on which they hang.
+/// Two joined links that carry nothing else, and their two neighbours.
 struct Row {
     links: [usize; 2],
     ends: [usize; 2],

@@ -1,14 +1,14 @@
-//! Which grippers move symmetrically, and how many there are by how many choices of a pair that is no hinge they take: a left and
-//! a right slide are one.
+//! The grippers that move symmetrically, each with its number of choices of pairs other than hinges: a left and a right slide are
+//! one choice.
 //!
-//! Graphs that lie on themselves are made by halves: a half is drawn once, and its image comes with it. Links either are their own
-//! images or change places with another. An orbit of joints is one that is its own image, or two that change places. Graphs grow by
-//! one orbit at a time, in every way that differs by more than numbering.
+//! Symmetric graphs are built by halves, each with its image. A link is its own image, or changes places with another. An orbit
+//! of joints is one that is its own image, or two that change places. Graphs grow by one orbit at a time, in every way that
+//! differs by more than numbering.
 
 use crate::chains::Symmetry;
 use crate::chains::canonical::{Weighted, canonical};
 use crate::chains::chain::{MOST_LINKS, ordered};
-use crate::chains::contracted::is_biconnected;
+use crate::chains::enumerate::contracted::is_biconnected;
 use crate::chains::motion::{Swap, Velocity, symmetric_motions};
 use crate::chains::roles::{Roles, Subject};
 use crate::chains::sharing::{Menu, Sharing};
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
-/// A way in which grippers are counted apart.
+/// A class in which grippers are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SymmetricKind {
     /// Half a turn; otherwise a mirror image.
@@ -34,12 +34,12 @@ pub struct SymmetricKind {
 pub struct SymmetricGripper {
     /// Its structure, in canonical numbering.
     pub structure: PairStructure,
-    /// How it counts.
+    /// Its class.
     pub kind: SymmetricKind,
 }
 
-/// Every essential gripper that moves symmetrically with the input joint carried to itself, as a mirror image and by half a turn
-/// apart; with the fewest orbits of pairs that are not hinges that it can be seen to have.
+/// Returns every essential gripper that moves symmetrically with the input joint carried to itself, separately for mirror images
+/// and half turns. Each has the smallest possible number of orbits of pairs that are not hinges.
 ///
 /// # Complexity
 /// As of [`crate::chains::visit::visit_pair_chains`], over the halves.
@@ -64,7 +64,7 @@ pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper>
                     let key = PairStructure { chain, roles }.key();
                     (half_turn, driven_jaw, key)
                 });
-                // Numbered before others have to wait.
+                // Numbered before the lock is taken.
                 let found: Vec<_> = found.collect();
                 let mut least = least.lock().unwrap_or_else(PoisonError::into_inner);
                 for key in found {
@@ -85,20 +85,7 @@ pub fn symmetric_grippers(links: usize, menu: Menu<'_>) -> Vec<SymmetricGripper>
     least.into_iter().map(gripper).collect()
 }
 
-/// Counts of these.
-///
-/// # Complexity
-/// As [`symmetric_grippers`].
-#[must_use]
-pub fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind, u64> {
-    let mut out = BTreeMap::new();
-    for gripper in symmetric_grippers(links, menu) {
-        *out.entry(gripper.kind).or_default() += 1;
-    }
-    out
-}
-
-/// The grippers of a chain that move so that an involution carries them to themselves, and how.
+/// Returns the grippers of a chain whose motion an involution carries to itself, each with true for half a turn.
 fn grippers(subject: &Subject<'_>, graph: &SymmetricGraph) -> Vec<(bool, Roles)> {
     let swap = &graph.swap[..];
     let Some(fixed) = swap.iter().enumerate().position(|(l, &to)| l == to) else {
@@ -124,7 +111,7 @@ fn grippers(subject: &Subject<'_>, graph: &SymmetricGraph) -> Vec<(bool, Roles)>
 /// Marks two links that change places, whether they are joined or not.
 const SWAPPED: u8 = 64;
 
-/// A graph with where an involution takes its vertices, and the automorphisms that keep the involution.
+/// A graph with an involution of its vertices, and the automorphisms that keep the involution.
 #[derive(Debug, Clone)]
 struct SymmetricGraph {
     pub(super) graph: Weighted,
@@ -142,8 +129,8 @@ fn is_joined(marked: &Weighted, u: usize, v: usize) -> bool {
     marked.weight(u, v) & !SWAPPED > 0
 }
 
-/// A graph with one orbit of joints more, in every way that joins the new ones to it: between its own vertices, or from one
-/// of them to a new one or to two new ones that change places.
+/// Returns the graphs with one more orbit of joints: between existing vertices, or from one of them to a new vertex or to two
+/// new ones that change places.
 fn grown(marked: &Weighted, most: usize, most_twos: usize) -> Vec<Weighted> {
     let (n, swap) = (marked.vertices(), swap(marked));
     let with_orbit = |graph: &Weighted, joint: [usize; 2], image: [usize; 2]| {
@@ -179,7 +166,7 @@ fn joint_count(marked: &Weighted) -> usize {
     pairs.filter(|&(u, v)| is_joined(marked, u, v)).count()
 }
 
-/// Joints that the vertices of fewer than two lack, at least, and those that are to come.
+/// Returns a lower bound of the joints that are missing at vertices with fewer than two, and at future vertices.
 fn lacking(marked: &Weighted, vertices: usize) -> usize {
     let n = marked.vertices();
     let degree = |u: usize| (0..n).filter(|&v| is_joined(marked, u, v)).count();
@@ -187,8 +174,8 @@ fn lacking(marked: &Weighted, vertices: usize) -> usize {
     ends.div_ceil(2) + vertices - n
 }
 
-/// Every graph of so many vertices and so many edges at most that hangs together without any one of its vertices, with
-/// each way to lie on itself that moves two vertices at least and keeps one.
+/// Returns every graph with this number of vertices and at most `most_edges` edges that stays connected without any one of its
+/// vertices, with each involution that moves at least two vertices and keeps one.
 ///
 /// # Complexity
 /// One canonical numbering for each orbit that each graph with one orbit fewer may get.

@@ -1,4 +1,4 @@
-//! Every chain of pairs, and the graphs that they are made of.
+//! Every chain of pairs, and the underlying graphs.
 
 use crate::chains::canonical::{Canonical, Weighted, canonical};
 use crate::chains::chain::MOST_LINKS;
@@ -25,12 +25,12 @@ fn ring(vertices: usize) -> Weighted {
     out
 }
 
-/// The graphs that hang together without any one of their vertices, each once: those of each number of vertices, up to the
-/// greatest, with a given number of loops.
+/// The graphs that stay connected without any one of their vertices, each once. They have a given number of loops, and are
+/// listed by number of vertices up to a maximum.
 ///
-/// Every such graph of one loop more comes of a smaller one by an ear, a path between two of its vertices that passes
-/// through new ones alone [Whitney 1932]. A chain of mobility 1 in which every two links move is such a graph: where one link
-/// holds two parts together, the mobility is the sum of theirs.
+/// Every such graph with one more loop results from a smaller one by an ear, a path between two of its vertices that passes
+/// only through new ones [Whitney 1932]. A chain of mobility 1 in which every two links move is such a graph. If one link held
+/// two parts together, the mobility would be the sum of theirs.
 struct Level {
     most: usize,
     graphs: BTreeMap<usize, BTreeSet<Weighted>>,

@@ -7,16 +7,11 @@ use crate::cli::terminal::{Done, charts, output};
 use crate::file::disk;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
-use crate::grip::clamped_part::ClampedPart;
-use crate::grip::force_closure::closure;
 use crate::grip::grip;
 use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
-use crate::model::mechanism::{Mechanism, StateId};
-use crate::statics::reactions::contact::object_at;
 use crate::view::grip::GripReport;
 use crate::view::grip::charts::charts;
-use crate::view::grip::closure::ClosureData;
 use crate::view::grip::motion::GripMotion;
 use crate::view::grip::text;
 use crate::view::terminal::next_commands::{self, NextCommand};
@@ -38,13 +33,6 @@ pub(in crate::cli) struct Grip {
     /// time, diameter. Computes the least clamping for every step.
     #[arg(long, value_name = "CSV", value_hint = clap::ValueHint::FilePath)]
     motion: Option<PathBuf>,
-    /// Report how firmly the contacts of any clamped mechanism hold the part, with and without friction, and the margin; the file
-    /// needs no [workload.grip].
-    #[arg(long, conflicts_with_all = ["acceleration", "any_acceleration", "motion", "svg"])]
-    closure: bool,
-    /// Clamped state [default: the first with contacts].
-    #[arg(long, requires = "closure")]
-    state: Option<String>,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextOrJson,
@@ -67,9 +55,6 @@ fn vector(text: &str) -> Result<[f64; 3], String> {
 }
 
 pub(in crate::cli) fn run(a: &Grip) -> anyhow::Result<Done> {
-    if a.closure {
-        return run_closure(a);
-    }
     let (name, bytes) = load::named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
     add_accelerations(&mut file, a)?;
@@ -151,46 +136,4 @@ fn steps_of(path: &Path, file: &mut WorkloadFile<GripSpec>) -> anyhow::Result<Ve
     }
     file.spec.diameters.sort_by(f64::total_cmp);
     Ok(steps)
-}
-
-/// Returns the state asked for, or the first in which a part is clamped.
-fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
-    let Some(name) = asked else {
-        let clamped = |s: &StateId| m.joints_in(*s).any(|j| object_at(m, j).is_some());
-        return Ok(m.state_ids().find(clamped).unwrap_or(StateId::FREE));
-    };
-    m.state(name).with_context(|| {
-        format!(
-            "{} has no state {name}; it has: {}",
-            m.name,
-            m.states.join(", ")
-        )
-    })
-}
-
-/// Says how firmly the contacts of any clamped mechanism hold the part.
-fn run_closure(a: &Grip) -> anyhow::Result<Done> {
-    let m = load::mechanism(&a.file)?;
-    let part = ClampedPart::new(&m, state(&m, a.state.as_deref())?)?;
-    let force = closure(&part, &part.faces)?;
-    let form = closure(&part, &part.smooth())?;
-    let shown = ClosureData {
-        mechanism: &m,
-        part: &part,
-        force,
-        form,
-    };
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &shown.json())?,
-            TextOrJson::Text => {
-                write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
-            }
-        }
-        Ok(match shown.force.closed {
-            Some(true) => Done::Found,
-            Some(false) => Done::Nothing,
-            None => Done::Partly,
-        })
-    })
 }

@@ -6,48 +6,6 @@ use clarabel::solver::{DefaultSettings, DefaultSolution, DefaultSolver, IPSolver
 /// A row of a sparse matrix: (column, entry).
 pub(crate) type Row = Vec<(usize, f64)>;
 
-/// Settings of the solver. A program at which one setting stalls may be solved by another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum SolverEffort {
-    /// The default settings.
-    Usual,
-    /// Without scaling of rows and columns.
-    Unscaled,
-    /// With shorter steps, each refined for longer.
-    Careful,
-}
-
-impl SolverEffort {
-    /// All settings, the fastest first.
-    pub(crate) const ALL: [SolverEffort; 3] = [
-        SolverEffort::Usual,
-        SolverEffort::Unscaled,
-        SolverEffort::Careful,
-    ];
-
-    fn settings(self) -> DefaultSettings<f64> {
-        let usual = DefaultSettings {
-            verbose: false,
-            ..DefaultSettings::default()
-        };
-        match self {
-            SolverEffort::Usual => usual,
-            SolverEffort::Unscaled => DefaultSettings {
-                equilibrate_enable: false,
-                ..usual
-            },
-            SolverEffort::Careful => DefaultSettings {
-                equilibrate_enable: false,
-                max_step_fraction: 0.9,
-                static_regularization_constant: 1e-10,
-                dynamic_regularization_delta: 1e-9,
-                iterative_refinement_max_iter: 50,
-                ..usual
-            },
-        }
-    }
-}
-
 /// Program: minimise ½ xᵀP x + qᵀx subject to `row · x + s = right`, with the slacks s of each group of rows in a cone.
 #[derive(Debug, Default)]
 pub(crate) struct ConeProgramme {
@@ -80,19 +38,6 @@ impl ConeProgramme {
         quadratic: &[Row],
         linear: &[f64],
     ) -> Result<DefaultSolution<f64>, String> {
-        self.solve_with(quadratic, linear, SolverEffort::Usual)
-    }
-
-    /// Solves the program with the given settings.
-    ///
-    /// # Errors
-    /// Returns the solver's message if it rejects the program.
-    pub(crate) fn solve_with(
-        &self,
-        quadratic: &[Row],
-        linear: &[f64],
-        effort: SolverEffort,
-    ) -> Result<DefaultSolution<f64>, String> {
         let columns = linear.len();
         let mut solver = DefaultSolver::new(
             &matrix(quadratic, columns, columns),
@@ -100,7 +45,10 @@ impl ConeProgramme {
             &matrix(&self.rows, self.rows.len(), columns),
             &self.right,
             &self.cones,
-            effort.settings(),
+            DefaultSettings {
+                verbose: false,
+                ..DefaultSettings::default()
+            },
         )
         .map_err(|e| e.to_string())?;
         solver.solve();

@@ -3,7 +3,6 @@
 
 pub mod charts;
 pub mod clamped;
-pub mod closure;
 pub mod motion;
 pub mod text;
 

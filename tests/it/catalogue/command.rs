@@ -162,7 +162,6 @@ fn what_cannot_be_done_is_said() {
         count --pairs slide --links 4..12 | 10 links
         count --links 3 | --pairs
         count --at-most 2 | --pairs
-        count --up-to-symmetry | --pairs
         ",
     ) {
         let files = [

@@ -12,7 +12,7 @@ use ozols::chains::census::{Census, Counted, DriveKind, Kinds, pair_census};
 use ozols::chains::chain::Chain;
 use ozols::chains::enumerate::chains;
 use ozols::chains::sharing::Menu;
-use ozols::chains::symmetric_census::{SymmetricKind, symmetric_census};
+use ozols::chains::symmetric_census::{SymmetricKind, symmetric_grippers};
 
 pub(super) const ALL: [PairKind; 3] = [PairKind::Slide, PairKind::Gear, PairKind::Slot];
 
@@ -148,6 +148,15 @@ fn as_many_symmetric_ones_as_are_published() {
             }
         }
     }
+}
+
+/// The numbers of symmetric grippers by how they count.
+fn symmetric_census(links: usize, menu: Menu<'_>) -> BTreeMap<SymmetricKind, u64> {
+    let mut out = BTreeMap::new();
+    for gripper in symmetric_grippers(links, menu) {
+        *out.entry(gripper.kind).or_default() += 1;
+    }
+    out
 }
 
 /// Made by halves or found among all: two ways to the same grippers, of eight links, too, where nothing is published.

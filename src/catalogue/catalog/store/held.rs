@@ -1,11 +1,13 @@
-//! An open catalogue: what it holds, and what is added.
+//! An open catalogue: reading and adding rows.
 
 use crate::catalog::drawn::DrawnMechanism;
 use crate::catalog::insert;
 use crate::catalog::row::StructureRow;
 use crate::catalog::store::version::{LARGEST_ANSWER, StoreError};
-use rusqlite::types::ValueRef;
-use rusqlite::{Connection, ErrorCode, OptionalExtension, TransactionBehavior, params};
+use rusqlite::types::{FromSql, ValueRef};
+use rusqlite::{
+    Connection, ErrorCode, OptionalExtension, Params, Transaction, TransactionBehavior, params,
+};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::iter;
@@ -20,14 +22,14 @@ pub struct Store {
     pub(super) db: Connection,
 }
 
-/// Rows that wait for the disk at most, and for how long: it takes as long for many as for one.
+/// Maximum number of rows that wait for the disk, and their waiting time. Writing many takes as long as writing one.
 const WAITING: usize = 256;
 const GATHERED: Duration = Duration::from_millis(500);
 
 pub(super) type Stored<T> = Result<T, StoreError>;
 
 impl Store {
-    /// Returns what is wrong with a file, from what SQLite says.
+    /// Returns the fault of a file from SQLite's error.
     pub(super) fn error(path: &Path, why: rusqlite::Error) -> StoreError {
         let path = path.to_owned();
         match why.sqlite_error_code() {
@@ -47,55 +49,69 @@ impl Store {
         Store::wrap(&self.path, result)
     }
 
+    /// Returns the first column of an answer.
+    pub(super) fn column(&self, sql: &str, of: impl Params) -> Stored<Vec<String>> {
+        let read = || {
+            let mut query = self.db.prepare(sql)?;
+            query.query_map(of, |r| r.get(0))?.collect()
+        };
+        self.ok(read())
+    }
+
+    /// Returns the first value of an answer, or `None` if it has no row.
+    fn value<T: FromSql>(&self, sql: &str, of: impl Params) -> Stored<Option<T>> {
+        self.ok(self.db.query_row(sql, of, |r| r.get(0)).optional())
+    }
+
+    /// Changes the file.
+    pub(super) fn change(&self, sql: &str, of: impl Params) -> Stored<()> {
+        self.ok(self.db.execute(sql, of)).map(drop)
+    }
+
+    /// Changes the file in one transaction: all at once, or not at all.
+    fn transact(
+        &mut self,
+        change: impl FnOnce(&Transaction<'_>) -> rusqlite::Result<()>,
+    ) -> Stored<()> {
+        let begun = (self.db).transaction_with_behavior(TransactionBehavior::Immediate);
+        let done = begun.and_then(|t| change(&t).and_then(|()| t.commit()));
+        self.ok(done)
+    }
+
     pub(super) fn meta(&self, key: &str) -> Stored<Option<String>> {
-        let sql = "SELECT value FROM meta WHERE key = ?1";
-        let found = self.db.query_row(sql, [key], |r| r.get(0)).optional();
-        self.ok(found)
+        self.value("SELECT value FROM meta WHERE key = ?1", [key])
     }
 
     pub(super) fn set_meta(&mut self, key: &str, value: &str) -> Stored<()> {
         let sql = "INSERT OR REPLACE INTO meta (key, value) VALUES (?1, ?2)";
-        let done = self.db.execute(sql, [key, value]);
-        self.ok(done.map(|_| ()))
+        self.change(sql, [key, value])
     }
 
-    /// The ids of the structures that are there.
+    /// Returns the ids of the stored structures.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn ids(&self) -> Stored<BTreeSet<String>> {
-        let all = || -> rusqlite::Result<BTreeSet<String>> {
-            let mut query = self.db.prepare("SELECT id FROM structures")?;
-            let ids = query.query_map([], |r| r.get(0))?;
-            ids.collect()
-        };
-        self.ok(all())
+        let all = self.column("SELECT id FROM structures", [])?;
+        Ok(all.into_iter().collect())
     }
 
     /// Adds structures with all that is known of them, at once or not at all.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn add(&mut self, rows: &[StructureRow]) -> Stored<()> {
-        let mut all = || -> rusqlite::Result<()> {
-            let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
-            for row in rows {
-                insert::row(&t, row)?;
-            }
-            t.commit()
-        };
-        let done = all();
-        self.ok(done)
+        self.transact(|t| rows.iter().try_for_each(|row| insert::row(t, row)))
     }
 
-    /// Adds structures while `make` makes them and sends them: those of half a second go together. Where the file cannot be written
-    /// sending fails.
+    /// Adds structures while `make` makes and sends them, those of half a second together. If the file cannot be written, sending
+    /// fails.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// Returns an error if the file cannot be written.
     ///
     /// # Panics
-    /// Where `make` does.
+    /// Panics if `make` does.
     pub fn add_while<R>(&mut self, make: impl FnOnce(SyncSender<StructureRow>) -> R) -> Stored<R> {
         let (send, made) = sync_channel(WAITING);
         std::thread::scope(|scope| {
@@ -120,47 +136,32 @@ impl Store {
         })
     }
 
-    /// Whether a drawn mechanism is there, searched for so many ideas.
+    /// Returns true if a drawn mechanism is stored with this number of ideas.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn has_drawn(&self, id: &str, ideas: usize) -> Stored<bool> {
-        let sql = "SELECT count(*) FROM drawn WHERE id = ?1 AND ideas_asked = ?2";
+        let sql = "SELECT 1 FROM drawn WHERE id = ?1 AND ideas_asked = ?2";
         let ideas = i64::try_from(ideas).unwrap_or(i64::MAX);
-        let there = self
-            .db
-            .query_row(sql, params![id, ideas], |r| r.get::<_, i64>(0));
-        Ok(self.ok(there)? > 0)
+        Ok(self.value::<i64>(sql, params![id, ideas])?.is_some())
     }
 
     /// Adds a drawn mechanism with all that is known of it, at once or not at all, in place of an earlier search of it.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn add_drawn(&mut self, drawn: &DrawnMechanism) -> Stored<()> {
-        let mut all = || -> rusqlite::Result<()> {
-            let t = (self.db).transaction_with_behavior(TransactionBehavior::Immediate)?;
-            insert::drawn(&t, drawn)?;
-            t.commit()
-        };
-        let done = all();
-        self.ok(done)
+        self.transact(|t| insert::drawn(t, drawn))
     }
 
-    /// The whole id that begins so.
+    /// Returns the whole id, given its beginning.
     ///
     /// # Errors
-    /// Where there is none, or more than one.
+    /// Returns an error if there is no such id, or several.
     pub fn find(&self, id: &str) -> Stored<String> {
-        let all = || -> rusqlite::Result<Vec<String>> {
-            let sql = "SELECT id FROM (SELECT id, name FROM structures UNION ALL SELECT id, name FROM drawn) \
-                 WHERE substr(id, 1, ?2) = ?1 OR name = ?1 ORDER BY id";
-            let mut query = self.db.prepare(sql)?;
-            let length = i64::try_from(id.chars().count()).unwrap_or(i64::MAX);
-            let ids = query.query_map(params![id, length], |r| r.get(0))?;
-            ids.collect()
-        };
-        let found = self.ok(all())?;
+        let sql = "SELECT id FROM (SELECT id, name FROM structures UNION ALL SELECT id, name FROM drawn) \
+                   WHERE substr(id, 1, length(?1)) = ?1 OR name = ?1 ORDER BY id";
+        let found = self.column(sql, [id])?;
         match &found[..] {
             [one] if !id.is_empty() => Ok(one.clone()),
             [] | [_] => Err(StoreError::Unknown {
@@ -174,10 +175,10 @@ impl Store {
         }
     }
 
-    /// The answer to a question in SQL, with `?1` in it for `id`: names of columns, and rows.
+    /// Returns the answer to a question in SQL as names of columns and rows; `?1` is `id`.
     ///
     /// # Errors
-    /// Where the question is wrong, is none, or has too large an answer.
+    /// Returns an error if the question is invalid or its answer is too large.
     pub fn query(&self, sql: &str, id: Option<&str>) -> Stored<(Vec<String>, Vec<Vec<Value>>)> {
         let all = || -> rusqlite::Result<_> {
             let mut query = self.db.prepare(sql)?;
@@ -201,7 +202,7 @@ impl Store {
         };
         let only_read = || StoreError::ReadOnly(self.path.clone());
         match all() {
-            // BEGIN and the like are no questions.
+            // BEGIN and similar statements are not questions.
             Ok(Ok((names, _))) if names.is_empty() => Err(only_read()),
             Err(why)
                 if why.sqlite_error_code() == Some(ErrorCode::AuthorizationForStatementDenied) =>
@@ -212,39 +213,35 @@ impl Store {
         }
     }
 
-    /// The mechanism of a structure as TOML, and for an idea the options of its joints.
+    /// Returns the mechanism of a structure as TOML.
     ///
     /// # Errors
-    /// Where there is none.
+    /// Returns an error if the file cannot be read.
     pub fn mechanism(&self, id: &str) -> Stored<Option<String>> {
         let sql = "SELECT mechanism FROM layouts WHERE structure = ?1 \
                    UNION ALL SELECT mechanism FROM drawn WHERE id = ?1";
-        let found = self.db.query_row(sql, [id], |r| r.get(0)).optional();
-        self.ok(found)
+        self.value(sql, [id])
     }
 
-    /// What the first variant of an idea puts at each joint.
+    /// Returns the option of each joint in the first variant of an idea.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn choices(&self, id: &str, place: usize) -> Stored<Option<Vec<usize>>> {
         let sql = "SELECT choices FROM ideas WHERE structure = ?1 AND place = ?2";
         let place = i64::try_from(place).unwrap_or(i64::MAX);
-        let found: Option<String> = self.ok(self
-            .db
-            .query_row(sql, params![id, place], |r| r.get(0))
-            .optional())?;
+        let found = self.value::<String>(sql, params![id, place])?;
         let number = |t: &str| t.parse().ok();
         Ok(found.and_then(|t| t.split(' ').map(number).collect()))
     }
 }
 
-/// About the bytes that a value takes.
+/// Returns the approximate number of bytes of a value.
 fn held_by(value: &Value) -> usize {
     size_of::<Value>() + value.as_str().map_or(0, str::len)
 }
 
-/// A value of the database as one of JSON.
+/// Converts a value of the database to JSON.
 fn plain(value: ValueRef<'_>) -> Value {
     match value {
         ValueRef::Null => Value::Null,

@@ -1,4 +1,4 @@
-//! Parts put together, and what is missing of the whole.
+//! Merges the parts of a catalogue, and finds the missing ones.
 
 use super::held::{Store, Stored};
 use super::open::plain_name;
@@ -6,26 +6,27 @@ use crate::catalog::spec::Spec;
 use crate::catalog::store::version::StoreError;
 use crate::shard::Shard;
 use num_integer::Integer;
+use rusqlite::params;
 use std::path::{Path, PathBuf};
 
-/// Parts beyond so many are not told one by one.
+/// Maximum number of parts that are named one by one.
 const FINEST: u64 = 100_000;
 
-/// What came of merging.
+/// Result of merging.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// Parts that were taken in.
+    /// Number of parts merged.
     pub taken: usize,
-    /// Structures and drawn mechanisms that were added.
+    /// Number of structures and drawn mechanisms added.
     pub added: usize,
-    /// Parts that are missing of the whole, in words that `--shard` takes: none where all structures are there.
+    /// Missing parts. Empty if all structures are there.
     pub missing: Vec<Shard>,
-    /// Files that do not say that all of their part is there: what made them was ended.
+    /// Files whose part was not completed.
     pub unfinished: Vec<PathBuf>,
 }
 
 impl Merged {
-    /// Takes a part into the whole, which is opened unless it is open already.
+    /// Merges a part into the whole, and opens the whole if necessary.
     fn take_in(&mut self, path: &Path, whole: Option<Store>, part: &Path) -> Stored<Store> {
         let from = Store::open(part)?;
         let spec = from.meta("spec")?;
@@ -56,11 +57,11 @@ impl Merged {
 }
 
 impl Store {
-    /// Takes in the structures of other catalogues of the same specification that this one has not. A part that cannot be taken in goes
-    /// to `refuse`, and takes nothing from the others.
+    /// Adds the missing structures from other catalogues of the same specification. A part that cannot be merged goes to `refuse`
+    /// and does not affect the others.
     ///
     /// # Errors
-    /// Where the whole cannot be read in the end.
+    /// Returns an error if the merged file cannot be read.
     pub fn merge(
         path: &Path,
         parts: &[PathBuf],
@@ -82,34 +83,26 @@ impl Store {
         Ok(merged)
     }
 
-    /// Notes that all of a part is there: so many structures.
+    /// Marks a part as complete, with its number of structures.
     ///
     /// # Errors
-    /// Where the file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn finish_part(&mut self, part: Shard, structures: usize) -> Stored<()> {
         let structures = i64::try_from(structures).unwrap_or(i64::MAX);
         let sql = "INSERT OR REPLACE INTO parts (part, structures) VALUES (?1, ?2)";
-        let done = self
-            .db
-            .execute(sql, rusqlite::params![part.to_string(), structures]);
-        self.ok(done.map(drop))
+        self.change(sql, params![part.to_string(), structures])
     }
 
-    /// The parts that are all there.
+    /// Returns the complete parts.
     fn parts(&self) -> Stored<Vec<Shard>> {
-        let all = || -> rusqlite::Result<Vec<String>> {
-            let mut query = self.db.prepare("SELECT part FROM parts ORDER BY part")?;
-            let parts = query.query_map([], |r| r.get(0))?;
-            parts.collect()
-        };
-        let words = self.ok(all())?;
+        let words = self.column("SELECT part FROM parts ORDER BY part", [])?;
         Ok(words.iter().filter_map(|w| w.parse().ok()).collect())
     }
 
-    /// The parts that are missing of the whole; none where there is no specification that says what the whole is.
+    /// Returns the missing parts. Empty without a specification.
     ///
     /// # Errors
-    /// Where the file cannot be read.
+    /// Returns an error if the file cannot be read.
     pub fn missing(&self) -> Stored<Vec<Shard>> {
         if self.meta("spec")?.is_none() {
             return Ok(Vec::new());
@@ -120,7 +113,7 @@ impl Store {
     fn take_in(&self, part: &Path) -> Stored<usize> {
         let all = || -> rusqlite::Result<usize> {
             self.attach(part)?;
-            // What is there already stays as it is, with no idea of another search of it.
+            // Existing rows stay unchanged, without ideas of another search.
             self.db.execute_batch(
                 "BEGIN IMMEDIATE;
                  CREATE TEMP TABLE there AS SELECT id FROM main.structures UNION ALL SELECT id FROM main.drawn;",
@@ -128,17 +121,14 @@ impl Store {
             let count = "SELECT (SELECT count(*) FROM part.structures WHERE id NOT IN there) \
                          + (SELECT count(*) FROM part.drawn WHERE id NOT IN there)";
             let added: i64 = self.db.query_row(count, [], |r| r.get(0))?;
+            let of_structures = "layouts counts ideas strokes planes pairs classics".split(' ');
+            let tables = [("structures", "id"), ("drawn", "id")].into_iter();
+            for (table, id) in tables.chain(of_structures.map(|table| (table, "structure"))) {
+                let rows = format!("SELECT * FROM part.{table} WHERE {id} NOT IN there");
+                (self.db).execute_batch(&format!("INSERT INTO main.{table} {rows}"))?;
+            }
             self.db.execute_batch(
-                "INSERT INTO main.structures SELECT * FROM part.structures WHERE id NOT IN there;
-                 INSERT INTO main.drawn SELECT * FROM part.drawn WHERE id NOT IN there;
-                 INSERT INTO main.layouts SELECT * FROM part.layouts WHERE structure NOT IN there;
-                 INSERT INTO main.counts SELECT * FROM part.counts WHERE structure NOT IN there;
-                 INSERT INTO main.ideas SELECT * FROM part.ideas WHERE structure NOT IN there;
-                 INSERT INTO main.strokes SELECT * FROM part.strokes WHERE structure NOT IN there;
-                 INSERT INTO main.planes SELECT * FROM part.planes WHERE structure NOT IN there;
-                 INSERT INTO main.pairs SELECT * FROM part.pairs WHERE structure NOT IN there;
-                 INSERT INTO main.classics SELECT * FROM part.classics WHERE structure NOT IN there;
-                 INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;
+                "INSERT OR IGNORE INTO main.parts SELECT * FROM part.parts;
                  DROP TABLE there; COMMIT; DETACH DATABASE part;",
             )?;
             Ok(usize::try_from(added).unwrap_or(0))
@@ -146,7 +136,7 @@ impl Store {
         self.ok(all())
     }
 
-    /// Attaches a part, whatever bytes its name is of.
+    /// Attaches a part, whose name may have any bytes.
     fn attach(&self, part: &Path) -> rusqlite::Result<()> {
         let name = plain_name(part);
         #[cfg(unix)]
@@ -159,7 +149,7 @@ impl Store {
     }
 }
 
-/// The parts that are missing beside some, in as many as all of those are of.
+/// Returns the missing parts, in a partition that all given ones fit into.
 fn missing(there: &[Shard]) -> Vec<Shard> {
     let of = there.iter().fold(
         1,

@@ -1,8 +1,8 @@
-//! Opening catalogues, to read them and to write to them.
+//! Opens catalogues for reading and writing.
 //!
-//! What a file is gets looked at within the transaction that would make it, after whatever a killed command left was rolled
-//! back: so a catalogue that was never finished being made is as good as none, and of several commands that make one file the
-//! first does, and the others find it made.
+//! The kind of a file is checked in the transaction that would create its tables, after the remains of a killed command are
+//! rolled back. So an unfinished catalogue counts as a new file. If several commands create one file, the first succeeds and
+//! the others find it.
 
 use super::held::{Store, Stored};
 use super::version::{self, FileKind, VERSION};
@@ -14,10 +14,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// How long a command waits for others that write to the same file.
+/// Time that a command waits for others that write to the same file.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Pragmas that only tell something about the table they are given.
+/// Pragmas that only read properties of a table.
 const TELLING: [&str; 7] = [
     "foreign_key_list",
     "index_info",
@@ -29,10 +29,10 @@ const TELLING: [&str; 7] = [
 ];
 
 impl Store {
-    /// Opens a catalogue to read, and for nothing else: no question can write, or open another file.
+    /// Opens a catalogue only to read. No question can write or open another file.
     ///
     /// # Errors
-    /// Where there is none.
+    /// Returns an error if the file is not a catalogue.
     pub fn open(path: &Path) -> Stored<Store> {
         let read = || {
             let db = connect(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
@@ -59,27 +59,27 @@ impl Store {
         })
     }
 
-    /// Opens a catalogue to carry on, or makes one, that holds what a specification asks for.
+    /// Opens a catalogue of a specification to continue it, or creates it.
     ///
     /// # Errors
-    /// Where the file is something else, or holds another catalogue.
+    /// Returns an error if the file is something else, or holds another catalogue.
     pub fn create(path: &Path, spec: &Spec) -> Stored<Store> {
         Store::writable_of(path, Some(&spec.canonical()))
     }
 
-    /// Opens a catalogue to write to, or makes an empty one.
+    /// Opens a catalogue for writing, or creates an empty one.
     ///
     /// # Errors
-    /// Where the file is something else.
+    /// Returns an error if the file is something else.
     pub fn writable(path: &Path) -> Stored<Store> {
         Store::writable_of(path, None)
     }
 
-    /// The same, of a specification where there is one.
+    /// Opens or creates a catalogue, with a specification if one is given.
     pub(super) fn writable_of(path: &Path, spec: Option<&str>) -> Stored<Store> {
         let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
         let db = connect(path, flags)?;
-        // Rolls back what a killed command left, and keeps others from making what is missing here.
+        // Rolls back the remains of a killed command, and locks out others that would create the tables.
         let begun = db.execute_batch("PRAGMA page_size = 8192; BEGIN IMMEDIATE");
         begun.map_err(|why| unreadable(path, why))?;
         match kind(path, &db)? {
@@ -102,7 +102,7 @@ impl Store {
         Ok(store)
     }
 
-    /// Notes what the catalogue is of, or sees that it is the same.
+    /// Stores the specification, or checks that it is the stored one.
     pub(super) fn be_of(&mut self, spec: &str) -> Stored<()> {
         match self.meta("spec")? {
             Some(there) if there != spec => Err(differs(&self.path, &there, spec)),
@@ -124,7 +124,7 @@ fn check_version(path: &Path, found: i64) -> Stored<()> {
     }
 }
 
-/// Refuses a file that is damaged, by SQLite's quick check: it reads every page once, and what is added to a damaged file may be lost.
+/// Refuses a damaged file by SQLite's quick check, which reads every page once. Rows added to a damaged file may be lost.
 fn check_pages(path: &Path, db: &Connection) -> Stored<()> {
     let found = db.query_row("PRAGMA quick_check(1)", [], |r| r.get::<_, String>(0));
     match Store::wrap(path, found)? {
@@ -137,7 +137,7 @@ fn check_pages(path: &Path, db: &Connection) -> Stored<()> {
     }
 }
 
-/// Opens a database. Names stand for files whatever they look like, and what a foreign file says of itself is not trusted.
+/// Opens a database. Every name is that of a file, and the schema of a foreign file is not trusted.
 fn connect(path: &Path, flags: OpenFlags) -> Stored<Connection> {
     let flags = flags | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let open = || {
@@ -149,7 +149,7 @@ fn connect(path: &Path, flags: OpenFlags) -> Stored<Connection> {
     Store::wrap(path, open())
 }
 
-/// A name that SQLite takes for that of a file: `:memory:` is one here, too.
+/// Returns a name that SQLite reads as that of a file, such as one called `:memory:`.
 pub(super) fn plain_name(path: &Path) -> PathBuf {
     if path.is_absolute() {
         path.to_owned()
@@ -162,7 +162,7 @@ fn kind(path: &Path, db: &Connection) -> Stored<FileKind> {
     version::kind(db).map_err(|why| unreadable(path, why))
 }
 
-/// What cannot be read is no database, or cannot be read.
+/// Returns the error of an unreadable file, which may not be a database.
 fn unreadable(path: &Path, why: rusqlite::Error) -> StoreError {
     match why.sqlite_error_code() {
         Some(ErrorCode::NotADatabase) => StoreError::Other(path.to_owned()),
@@ -170,7 +170,7 @@ fn unreadable(path: &Path, why: rusqlite::Error) -> StoreError {
     }
 }
 
-/// Whether a killed command left something to be rolled back, which whoever only reads may not do.
+/// Returns true if a killed command left a transaction to roll back, which a read-only connection cannot do.
 fn is_half_written(why: &rusqlite::Error) -> bool {
     let code = why.sqlite_error().map(|e| e.extended_code);
     matches!(
@@ -179,7 +179,7 @@ fn is_half_written(why: &rusqlite::Error) -> bool {
     )
 }
 
-/// Rolls back what a killed command left.
+/// Rolls back the remains of a killed command.
 fn recover(path: &Path) -> Stored<()> {
     let db = connect(path, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
     kind(path, &db).map(drop)
@@ -196,7 +196,7 @@ fn only_questions(asked: AuthContext<'_>) -> Authorization {
     }
 }
 
-/// What two specifications differ in.
+/// Returns the difference of two specifications.
 fn differs(path: &Path, there: &str, asked: &str) -> StoreError {
     let line = |text: &str, other: &str| {
         let lines = other.lines().collect::<BTreeSet<_>>();

@@ -1,6 +1,6 @@
-//! The version of the tables: every catalogue bears it, and one of another version is refused; what else can be wrong with a catalogue; and
-//! what the parts of a gripper cost, in
-//! revolute joints, by what is bought and what has to be fitted for it.
+//! The version of the tables, the faults of a catalogue, and the prices of parts.
+//!
+//! A catalogue of another version is refused. Prices are in revolute joints, with bought parts and their fitting.
 
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::CostSpec;
@@ -9,10 +9,10 @@ use rusqlite::Connection;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Size of an answer at most `[MiB]`: it is held whole, since columns are as wide as their widest value.
+/// Maximum size of an answer `[MiB]`. It is kept whole, since columns are as wide as their widest value.
 pub(crate) const LARGEST_ANSWER: usize = 256;
 
-/// What is wrong with a catalogue.
+/// Fault of a catalogue.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StoreError {
@@ -33,7 +33,7 @@ pub enum StoreError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What SQLite says of it.
+        /// SQLite's message.
         why: String,
     },
     /// The file is something else.
@@ -67,9 +67,9 @@ pub enum StoreError {
         path: PathBuf,
         /// Which part.
         what: String,
-        /// What it holds.
+        /// Its specification.
         there: String,
-        /// What is asked.
+        /// The specification asked for.
         asked: String,
     },
     /// A question that would do more than read the catalogue.
@@ -85,20 +85,20 @@ pub enum StoreError {
     Unknown {
         /// The file.
         path: PathBuf,
-        /// What was asked for.
+        /// The id asked for.
         id: String,
     },
     /// Several structures begin so.
     #[error("{id} is the beginning of {count} structures; give more of it")]
     Several {
-        /// What was asked for.
+        /// The id asked for.
         id: String,
         /// How many.
         count: usize,
     },
 }
 
-/// What marks a file as a catalogue: "ozcg".
+/// Application id of catalogues: "ozcg".
 const APPLICATION: i64 = 0x6f7a_6367;
 /// Version of the tables; it is raised with every change of them, and of what a specification says.
 pub(super) const VERSION: i64 = 11;
@@ -112,7 +112,7 @@ fn price_rows() -> String {
     prices().iter().map(row).join(", ")
 }
 
-/// What a file is.
+/// Kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FileKind {
     /// A database without a table, as a kill leaves it that comes while a catalogue is being made.
@@ -123,7 +123,7 @@ pub(super) enum FileKind {
     Other,
 }
 
-/// What an open database is.
+/// Returns the kind of an open database.
 pub(super) fn kind(db: &Connection) -> rusqlite::Result<FileKind> {
     let number = |name: &str| db.pragma_query_value(None, name, |r| r.get::<_, i64>(0));
     let (application, version) = (number("application_id")?, number("user_version")?);

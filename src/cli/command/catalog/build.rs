@@ -1,9 +1,11 @@
 //! `ozols catalog build`.
 
-use super::task::TaskArgs;
+use super::chains::kind;
+use super::task::{TaskArgs, word};
 use crate::catalog::build::{build, work};
-use crate::catalog::spec::Spec;
+use crate::catalog::spec::{Parallel, Spec};
 use crate::catalog::store::Store;
+use crate::chains::{Input, PairKind, Symmetry};
 use crate::cli::option::Global;
 use crate::cli::terminal::progress::Bar;
 use crate::cli::terminal::{Done, interrupt, output};
@@ -25,35 +27,28 @@ pub(in crate::cli) struct Build {
     #[arg(long, value_name = "N")]
     jaws: Option<usize>,
     /// Motion of the driver: slide, turn [default: both].
-    #[arg(long, value_name = "INPUT", value_delimiter = ',')]
-    input: Vec<String>,
+    #[arg(long, value_name = "INPUT", value_delimiter = ',', value_parser = input)]
+    input: Vec<Input>,
     /// Symmetries of the layouts: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a
     /// plane with a turning input, about an axis with a slide) [default: all].
-    #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
-    symmetry: Vec<String>,
+    #[arg(long, value_name = "SYMMETRY", value_delimiter = ',', value_parser = symmetry)]
+    symmetry: Vec<Symmetry>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
-    #[arg(long, value_name = "WORD")]
-    parallel: Option<String>,
-    /// Layouts in which a hinge and its mirror image share one pin, as in tongs: with, without or only [default: without].
-    #[arg(long, value_name = "WORD")]
-    one_pin: Option<String>,
+    #[arg(long, value_name = "WORD", value_parser = parallel)]
+    parallel: Option<Parallel>,
     /// Pairs in addition to hinges: slide, gear (or rack), slot (pin in a slot, cam, wedge), two-slots (two pins in two slots
     /// between the same links). They are used in symmetric structures of two jaws, threefold ones of three, or any with
     /// --generic-pairs; only the driver may slide otherwise.
-    #[arg(long, value_name = "KINDS", value_delimiter = ',')]
-    pairs: Vec<String>,
+    #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
+    pairs: Vec<PairKind>,
     /// Maximum number of pairs that are not hinges; a left and a right one count once [default: 3].
     #[arg(long, value_name = "K")]
     at_most: Option<usize>,
     /// With pairs, also include structures of two or three jaws that are laid out freely, symmetric or not; there are many.
     #[arg(long, requires = "pairs")]
     generic_pairs: bool,
-    /// Slots between links that do not rotate relative to each other as flat faces, which are redundant already in the plane:
-    /// with, without or only [default: without].
-    #[arg(long, value_name = "WORD")]
-    flat_faces: Option<String>,
     /// Only the well-known schemes, with any number of links, each as symmetric as it can be.
-    #[arg(long, conflicts_with_all = ["links", "pairs", "at_most", "one_pin", "flat_faces", "generic_pairs"])]
+    #[arg(long, conflicts_with_all = ["links", "pairs", "at_most", "generic_pairs"])]
     classics: bool,
     /// Joint types that may replace a hinge.
     #[arg(long, value_name = "TYPES", value_delimiter = ',')]
@@ -84,6 +79,26 @@ pub(in crate::cli) struct Build {
     task: TaskArgs,
 }
 
+fn input(text: &str) -> Result<Input, String> {
+    word(text, &Input::ALL)
+}
+
+fn symmetry(text: &str) -> Result<Symmetry, String> {
+    word(text, &Symmetry::ALL)
+}
+
+fn parallel(text: &str) -> Result<Parallel, String> {
+    word(text, &Parallel::ALL)
+}
+
+/// Replaces a list by the given one, unless that is empty.
+fn put_list<T: Clone>(there: &mut Vec<T>, given: &[T]) {
+    if !given.is_empty() {
+        there.clear();
+        there.extend_from_slice(given);
+    }
+}
+
 impl Build {
     /// Returns the maximum number of pairs that are not hinges, among those asked for.
     fn most_of(&self, spec: &Spec) -> anyhow::Result<usize> {
@@ -99,28 +114,12 @@ impl Build {
         if let Some(links) = &self.links {
             spec.links.clone_from(links);
         }
-        let lists = [
-            (&self.input, &mut spec.inputs),
-            (&self.symmetry, &mut spec.symmetries),
-            (&self.pairs, &mut spec.pairs),
-            (&self.options, &mut spec.options),
-            (&self.unloading, &mut spec.unloading),
-        ];
-        for (given, there) in lists {
-            if !given.is_empty() {
-                there.clone_from(given);
-            }
-        }
-        let words = [
-            (&self.parallel, &mut spec.parallel),
-            (&self.one_pin, &mut spec.one_pin),
-            (&self.flat_faces, &mut spec.flat_faces),
-        ];
-        for (given, there) in words {
-            if let Some(word) = given {
-                there.clone_from(word);
-            }
-        }
+        put_list(&mut spec.inputs, &self.input);
+        put_list(&mut spec.symmetries, &self.symmetry);
+        put_list(&mut spec.pairs, &self.pairs);
+        put_list(&mut spec.options, &self.options);
+        put_list(&mut spec.unloading, &self.unloading);
+        spec.parallel = self.parallel.unwrap_or(spec.parallel);
         spec.generic_pairs |= self.generic_pairs;
         spec.classics |= self.classics;
         spec.at_most = self.most_of(spec)?;
@@ -174,8 +173,7 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
     let all = work.count();
     ensure!(
         all > 0 || part != Shard::WHOLE,
-        "no structure with {} links meets the conditions: hinges on one pin need mirror images \
-        with a slide, flat faces need slots between links that slides join, three sides need \
+        "no structure with {} links meets the conditions: three sides need \
         links that join only frame and driver, and three jaws need at least four links; without \
         gears and slots the number of links is even",
         spec.links

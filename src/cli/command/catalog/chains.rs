@@ -5,14 +5,12 @@ use crate::chains::PairKind;
 use crate::chains::census::{census, pair_census};
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
 use crate::chains::sharing::Menu;
-use crate::chains::symmetric_census::symmetric_census;
 use crate::cli::option::{Global, TextJsonOrCsv};
 use crate::cli::terminal::progress::Bar;
 use crate::cli::terminal::{Done, output};
 use crate::format::csv::records;
 use crate::view::catalog::counts::{
-    ChainData, chains_text, hinged_row, hinged_text, pair_rows, pair_text, symmetric_rows,
-    symmetric_text,
+    ChainData, chains_text, hinged_row, hinged_text, pair_rows, pair_text,
 };
 use anyhow::ensure;
 use clap::{Args as ClapArgs, ValueHint};
@@ -28,15 +26,12 @@ struct PairArgs {
     /// in two slots between the same links).
     #[arg(long, value_name = "KINDS", value_delimiter = ',', value_parser = kind)]
     pairs: Vec<PairKind>,
-    /// Maximum number of pairs that are not hinges; with --up-to-symmetry a left and a right one count once.
+    /// Maximum number of pairs that are not hinges.
     #[arg(long, value_name = "K", default_value_t = 3, requires = "pairs")]
     at_most: usize,
-    /// Only symmetric grippers, counted by their pairs that are not hinges.
-    #[arg(long, requires = "pairs", conflicts_with = "chains")]
-    up_to_symmetry: bool,
 }
 
-fn kind(word: &str) -> Result<PairKind, String> {
+pub(super) fn kind(word: &str) -> Result<PairKind, String> {
     let others = PairKind::ALL.iter().filter(|k| k.0 != PairKind::Hinge);
     let found = others.clone().find(|k| k.1 == word).map(|k| k.0);
     found.ok_or_else(|| {
@@ -77,15 +72,6 @@ impl PairArgs {
             kinds: &self.pairs,
             most: self.at_most,
         };
-        if self.up_to_symmetry {
-            let mut all = Vec::new();
-            for (i, n) in numbers {
-                step(i, n);
-                all.extend(symmetric_rows(n, self.at_most, &symmetric_census(n, menu)));
-            }
-            bar.clear();
-            return listing.give(&all, symmetric_text);
-        }
         let mut all = Vec::new();
         for (i, n) in numbers {
             step(i, n);

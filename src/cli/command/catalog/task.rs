@@ -93,7 +93,7 @@ fn room(text: &str) -> Result<[f64; 2], String> {
     two(text, "x", "180x120")
 }
 
-fn word<T: Copy>(text: &str, all: &[(T, &'static str)]) -> Result<T, String> {
+pub(super) fn word<T: Copy>(text: &str, all: &[(T, &'static str)]) -> Result<T, String> {
     let found = all.iter().find(|(_, word)| *word == text);
     let known: Vec<&str> = all.iter().map(|(_, word)| *word).collect();
     found

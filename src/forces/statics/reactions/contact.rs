@@ -210,12 +210,6 @@ impl Contact {
         }
     }
 
-    /// Returns the factor that turns z of the joint's reaction into a push on the clamped part: 1 or -1.
-    #[must_use]
-    pub fn push(&self) -> f64 {
-        self.push
-    }
-
     /// Returns the arm at which friction resists a moment about the normal if nothing else loads the face: 2/3 r, that
     /// of uniform pressure on a round face.
     ///

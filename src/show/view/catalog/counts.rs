@@ -4,10 +4,9 @@ use crate::chains::census::{Census, Counted, DriveKind, Grippers, Kinds};
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
-use crate::chains::symmetric_census::SymmetricKind;
 use crate::format::grouped;
 use crate::view::terminal::layout::{fit, table};
-use itertools::{Itertools, iproduct};
+use itertools::Itertools;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -340,69 +339,4 @@ fn grippers(sum: &Census, width: Option<u16>) -> String {
         std::iter::once(name.to_owned()).chain(cells).collect()
     });
     table(&heads.collect_vec(), rows.collect(), width)
-}
-
-/// Counts of symmetric grippers of one number of links: the keys are a stable contract, in this order.
-#[derive(Debug, Clone, Serialize)]
-pub struct SymmetricCountsData {
-    links: usize,
-    /// `mirror` or `half-turn`.
-    symmetry: &'static str,
-    /// `apart` or `driven`.
-    jaws: &'static str,
-    /// Pairs that are not hinges, a left and a right one counted once.
-    orbits: usize,
-    essential: u64,
-}
-
-/// Returns the rows of one number of links, including those whose count is zero.
-#[must_use]
-pub fn symmetric_rows(
-    links: usize,
-    most: usize,
-    counts: &BTreeMap<SymmetricKind, u64>,
-) -> Vec<SymmetricCountsData> {
-    let ways = iproduct!([false, true], [false, true], 0..=most);
-    let row = |(half_turn, driven_jaw, orbits)| {
-        let kind = SymmetricKind {
-            half_turn,
-            driven_jaw,
-            orbits,
-        };
-        SymmetricCountsData {
-            links,
-            symmetry: word(half_turn, ["half-turn", "mirror"]),
-            jaws: word(driven_jaw, ["driven", "apart"]),
-            orbits,
-            essential: counts.get(&kind).copied().unwrap_or_default(),
-        }
-    };
-    ways.map(row).collect()
-}
-
-const SYMMETRIC_LEGEND: &str = "\
-Essential grippers of two jaws whose input joint is its own image, up to isomorphism, by their pairs other than hinges: a left
-and a right one are one choice. Driven: a jaw is a link of the input joint.
-";
-
-/// Returns a table with a row for each symmetry and number of choices, and a column for each number of links.
-#[must_use]
-pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String {
-    let links = all.iter().map(|c| c.links).unique().collect_vec();
-    let heads = links.iter().map(|n| format!("{n} links")).collect_vec();
-    let first = ["symmetry", "jaws", "choices"];
-    let heads = first.into_iter().chain(heads.iter().map(String::as_str));
-    let key = |c: &&SymmetricCountsData| (c.symmetry, c.jaws, c.orbits);
-    let rows = all.iter().map(|c| key(&c)).unique().map(|own| {
-        let (symmetry, jaws, orbits) = own;
-        let words = [symmetry.to_owned(), jaws.to_owned(), orbits.to_string()];
-        let cells = all.iter().filter(|c| key(c) == own);
-        let cells = cells.map(|c| grouped(c.essential));
-        words.into_iter().chain(cells).collect_vec()
-    });
-    format!(
-        "{}\n\n{}",
-        table(&heads.collect_vec(), rows.collect(), width),
-        fit(SYMMETRIC_LEGEND, width)
-    )
 }

@@ -1,4 +1,4 @@
-//! Ways in which structures are made: freely, with hinges on one pin, with flat faces; and what they cost.
+//! Ways in which structures are made: freely, as known schemes; and what they cost.
 
 use super::super::carried_on::scattered;
 use super::{
@@ -10,13 +10,6 @@ use crate::common::*;
 fn free() -> &'static str {
     static FILE: Built = OnceLock::new();
     let line = "catalog build --pairs slide,gear,slot --generic-pairs --symmetry generic --links 4 --ideas 0 --quiet -o";
-    built(&FILE, &words(line))
-}
-
-/// Hinged mirror images with hinges on one pin.
-fn on_one_pin() -> &'static str {
-    static FILE: Built = OnceLock::new();
-    let line = "catalog build --one-pin only --links 6..8 --ideas 1 --quiet -o";
     built(&FILE, &words(line))
 }
 
@@ -42,55 +35,6 @@ fn free_structures_are_all_that_are_counted_and_pull_as_their_files_say() {
     for &i in &drawn {
         assert_eq!(laid[i]["finite"], "1, proven");
         pulls_as_its_file_says(free(), &laid[i], &folder);
-    }
-}
-
-/// Of each of the seven mirror images two hinges may be on one pin with their images, one of them or both.
-#[test]
-fn hinges_are_on_one_pin_with_their_images() {
-    let all = rows(
-        on_one_pin(),
-        "SELECT id, name, mechanism FROM structures JOIN layouts ON structure = id JOIN strokes k USING (structure) WHERE reached = 1",
-    );
-    assert_eq!(all.len(), 3 * (2 + 5));
-    for row in &all {
-        let m = ozols::from_toml(row["mechanism"].as_str().unwrap()).unwrap();
-        let shared = m.search.mirror.iter().filter(|(a, b)| {
-            let [a, b] = [a, b].map(|&j| real(&m.joints[j].frame.point));
-            a == b && a[1] == 0.0
-        });
-        let told = row["name"].as_str().unwrap().matches(" pin").count();
-        assert_eq!(shared.count(), told, "{row}");
-    }
-    let folder = tempdir().unwrap();
-    let laid = rows(
-        on_one_pin(),
-        "SELECT id, links, input, travel, closes, force_min, force_max, pin_force, 0 AS gears, jaw_c FROM structures \
-         JOIN layouts l ON l.structure = id JOIN strokes k ON k.structure = id WHERE links = 6",
-    );
-    for row in &laid {
-        pulls_as_its_file_says(on_one_pin(), row, &folder);
-    }
-}
-
-/// What flat faces are redundant by is one constraint more for each slot, in the plane already.
-#[test]
-fn flat_faces_are_made_where_they_are_asked() {
-    let folder = tempdir().unwrap();
-    let file = at(&folder, "flat.db");
-    ok(&format!(
-        "catalog build --pairs slide,slot --flat-faces with --symmetry mirror --links 4 --ideas 0 --quiet -o {file}"
-    ));
-    let sql = "SELECT a.redundant AS flat, b.redundant AS slotted, p.slots AS slots FROM layouts a JOIN structures s ON s.id = a.structure \
-         JOIN structures t ON t.name || ' flat' = s.name JOIN layouts b ON b.structure = t.id JOIN pairs p ON p.structure = t.id";
-    let all = rows(&file, sql);
-    assert!(!all.is_empty());
-    for row in &all {
-        assert_eq!(
-            number(row, "flat"),
-            number(row, "slotted") + number(row, "slots"),
-            "{row}"
-        );
     }
 }
 

@@ -38,14 +38,3 @@ fn data_has_a_row_for_each_kind_of_drive() {
         "{alone}"
     );
 }
-
-#[test]
-fn a_left_and_a_right_slide_are_one_choice() {
-    let counted =
-        out("catalog count --links 3..6 --pairs slide,gear,slot --at-most 2 --up-to-symmetry");
-    let rows = counted.lines().map(|l| l.split_whitespace().collect_vec());
-    let row = rows
-        .into_iter()
-        .find(|r| r.starts_with(&["mirror", "apart", "2"]));
-    assert_eq!(row.unwrap()[3..], ["0", "4", "5", "20"]);
-}

@@ -1,17 +1,17 @@
-//! Contracted graphs: what is left of a chain when each string of binary links is drawn as one edge. Vertices are the links
-//! with three joints or more.
+//! Contracted graphs: chains with each string of binary links drawn as one edge. Vertices are the links with three joints or
+//! more.
 //!
-//! Chains whose mobility is not the sum of two parts' hang together without any one of their links, and so do their
-//! contracted graphs. Those of k loops are the cubic ones (2(k - 1) vertices) and what comes of them by drawing the ends of
-//! edges together: a vertex of four or more edges can be split in two so that the graph still hangs together without any
-//! one vertex. Cubic ones of k + 1 loops come of those of k by a new edge between the middles of two edges, or of one.
+//! Chains whose mobility is not the sum of two parts' stay connected without any one of their links, and so do their
+//! contracted graphs. Those with k loops are the cubic ones (2(k - 1) vertices) and the contractions of their edges, because a
+//! vertex of four or more edges can be split in two without losing this property. Cubic graphs with k + 1 loops result from
+//! those with k by a new edge between the middles of two edges, or of one.
 
 use crate::chains::canonical::{Weighted, canonical};
 use itertools::Itertools;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Whether the graph hangs together without any one of its vertices.
+/// Returns true if the graph stays connected without any one of its vertices.
 pub(in crate::chains) fn is_biconnected(graph: &Weighted) -> bool {
     let n = graph.vertices();
     let all = (1u32 << n) - 1;
@@ -37,14 +37,14 @@ pub(in crate::chains) fn is_biconnected(graph: &Weighted) -> bool {
     })
 }
 
-/// The edges, each as often as its weight.
+/// Returns the edges, each as often as its weight.
 pub(super) fn edges(graph: &Weighted) -> Vec<(usize, usize)> {
     let pairs = (0..graph.vertices()).tuple_combinations();
     let repeated = |(u, v)| std::iter::repeat_n((u, v), graph.weight(u, v).into());
     pairs.flat_map(repeated).collect()
 }
 
-/// A cubic graph with one loop more: a new edge between the middles of two edges.
+/// Returns a cubic graph with one more loop: a new edge between the middles of two edges.
 fn with_edge_between(graph: &Weighted, edges: [(usize, usize); 2], same: bool) -> Weighted {
     let n = graph.vertices();
     let mut out = graph.widened(2);
@@ -68,7 +68,7 @@ fn with_edge_between(graph: &Weighted, edges: [(usize, usize); 2], same: bool) -
     out
 }
 
-/// The graph with the ends of an edge drawn together, the second into the first.
+/// Returns the graph with an edge contracted, its second end into the first.
 fn contracted(graph: &Weighted, into: usize, gone: usize) -> Weighted {
     let kept: Vec<usize> = (0..graph.vertices()).filter(|&v| v != gone).collect();
     let mut out = graph.renumbered(&kept);
@@ -84,7 +84,7 @@ fn distinct(candidates: impl ParallelIterator<Item = Weighted>) -> BTreeSet<Weig
     candidates.map(|g| canonical(&g).graph).collect()
 }
 
-/// Every contracted graph of so many loops, two or more, in canonical numbering and in order.
+/// Returns every contracted graph with this number of loops, two or more, in canonical numbering and in order.
 ///
 /// # Complexity
 /// One canonical numbering for each edge of each graph.

@@ -1,8 +1,8 @@
-//! How many joints each string of a chain has: every way to share the joints out over the edges of a contracted graph so
-//! that no part is rigid, without two ways that its symmetries make one.
+//! The numbers of joints of each string of a chain: every distribution of joints over the edges of a contracted graph without a
+//! rigid part, once up to the graph's symmetries.
 
 use crate::chains::canonical::{Weighted, canonical};
-use crate::chains::contracted::edges;
+use crate::chains::enumerate::contracted::edges;
 use itertools::Itertools;
 use std::collections::BTreeSet;
 
@@ -10,28 +10,27 @@ use std::collections::BTreeSet;
 struct ChainPart {
     /// Its edges.
     edges: u64,
-    /// How many joints it has at least, of no string more than three: a longer string would only make the part without it
-    /// the one that matters.
+    /// Minimum number of its joints, at most three counted per string. With a longer string, the part without it decides.
     least: u32,
 }
 
 /// The strings of a contracted graph.
 pub(super) struct Strings {
-    /// Links at their ends; strings between the same two links are neighbours in the list.
+    /// Links at their ends. Strings between the same two links are adjacent in the list.
     pub(super) ends: Vec<(usize, usize)>,
-    /// For each string the parts that it is the last one of.
+    /// For each string, the parts of which it is the last one.
     parts: Vec<Vec<ChainPart>>,
-    /// Where the symmetries take the strings.
+    /// Images of the strings under the symmetries.
     images: Vec<Vec<usize>>,
 }
 
-/// A part whose strings have J joints and k loops has the mobility J - 3k, which is to be 1 at least.
+/// Joints that a loop takes away: a part with J joints and k loops has the mobility J - 3k, which must be at least 1.
 const LOOP: usize = 3;
 
 /// The joints given to strings so far.
 struct Shared {
     joints: Vec<u8>,
-    /// Bit planes of the numbers, of no string more than three.
+    /// Bit planes of the numbers, at most three per string.
     ones: u64,
     twos: u64,
 }
@@ -52,7 +51,7 @@ impl Strings {
                     .filter(|&&e| ends[e].0 == v || ends[e].1 == v)
                     .count()
             };
-            // A part that falls apart, or has a link that hangs on one string, is told by its pieces.
+            // A part that is not connected, or has a link on only one string, is decided by its pieces.
             let whole = (0..n).filter(|v| part >> v & 1 == 1).all(|v| at(v) > 1);
             let Some(&last) = own.last().filter(|_| whole) else {
                 continue;
@@ -81,7 +80,7 @@ impl Strings {
         }
     }
 
-    /// Shares `joints` out, no string having more than `most`.
+    /// Distributes `joints`, at most `most` per string.
     pub(super) fn share(&self, joints: usize, most: u8, visit: &mut impl FnMut(&[u8])) {
         let mut shared = Shared {
             joints: vec![0; self.ends.len()],
@@ -135,7 +134,7 @@ impl Strings {
         (shared.ones, shared.twos) = (ones, twos);
     }
 
-    /// Whether no symmetry makes a greater list of it.
+    /// Returns true if no symmetry gives a greater list.
     fn is_first(&self, joints: &[u8]) -> bool {
         let own = joints.iter();
         self.images
