@@ -7,7 +7,6 @@ pub(crate) use names::*;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use std::hash::{BuildHasher, Hasher, RandomState};
-use std::io::Write;
 pub(crate) use tempfile::{TempDir, tempdir};
 
 /// A command line: its words, or a text with blanks between them.
@@ -135,28 +134,6 @@ pub(crate) fn data_bytes(name: &str) -> Vec<u8> {
 /// Returns the text of a file of `tests/data`.
 pub(crate) fn data(name: &str) -> String {
     text(&data_bytes(name))
-}
-
-/// Returns the folder of assemblies of other projects, which are no part of this one: the folder that `OZOLS_ASSEMBLIES` names, or
-/// the one beside the repository. Where it is missing, one line on standard error says so for all tests that want it.
-pub(crate) fn assemblies_of_others() -> Option<&'static Path> {
-    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let find = || {
-        let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assemblies");
-        let named = std::env::var_os("OZOLS_ASSEMBLIES");
-        let folder = named.map_or_else(beside, PathBuf::from);
-        if folder.is_dir() {
-            return Some(folder);
-        }
-        // Not by a macro: the harness shows what these print for tests that fail alone.
-        let _ = writeln!(
-            std::io::stderr(),
-            "skipped: assemblies of other projects, as there is no folder {} (OZOLS_ASSEMBLIES names another)",
-            folder.display()
-        );
-        None
-    };
-    FOLDER.get_or_init(find).as_deref()
 }
 
 /// Returns what is usual but for a change.

@@ -8,14 +8,6 @@ use ozols::draw::{Drawing, Rect, Subject, kinematic};
 
 type Point = [f64; 2];
 
-fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn length(a: Point) -> f64 {
-    a[0].hypot(a[1])
-}
-
 fn drawn(m: &Mechanism) -> Drawing {
     kinematic(&Subject {
         mechanism: m,

@@ -1,16 +1,11 @@
 //! Drives out of true: sample by sample against a plain integrator and a closed form, and the command that tells their shares.
 
-use super::drive;
 use super::repeated::latched;
+use super::{drive, steps};
 use crate::common::*;
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::shares;
 use ozols::drive::swing::Feed;
-use ozols::model::drive::ProgrammeStep;
-
-fn steps(discs: &[usize]) -> Vec<ProgrammeStep> {
-    discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect()
-}
 
 /// A drive that needs about 0.33 J of its cam.
 fn nominal(feed: f64) -> Module {
@@ -211,23 +206,17 @@ fn json_has_the_samples_or_null() {
 
 #[test]
 fn wrong_tolerances_are_refused_with_a_remedy() {
-    let said = |more: &[&str]| {
-        let ran = ozols(&[&["drive", "torsion-module"][..], more].concat())
-            .output()
-            .unwrap();
-        assert_eq!(ran.status.code(), Some(2), "{more:?}");
-        text(&ran.stderr)
-    };
-    for t in ["-0.1", "1", "nan", "5"] {
-        let errors = said(&["--tolerance", t]);
-        has(&errors, "a share from 0 to below 1, such as 0.05");
-    }
-    for n in ["0", "1000001"] {
-        let errors = said(&["--tolerance", "0.1", "--samples", n]);
-        has(&errors, "from 1 to 1000000");
-    }
-    let errors = said(&["--samples", "5"]);
-    has(&errors, "--tolerance");
+    refuses(
+        "
+        drive torsion-module --tolerance -0.1 | a share from 0 to below 1, such as 0.05
+        drive torsion-module --tolerance 1 | a share from 0 to below 1, such as 0.05
+        drive torsion-module --tolerance nan | a share from 0 to below 1, such as 0.05
+        drive torsion-module --tolerance 5 | a share from 0 to below 1, such as 0.05
+        drive torsion-module --tolerance 0.1 --samples 0 | from 1 to 1000000
+        drive torsion-module --tolerance 0.1 --samples 1000001 | from 1 to 1000000
+        drive torsion-module --samples 5 | --tolerance
+        ",
+    );
     // Near the critical rate some samples creep.
     let creeping = "name = \"d\"\n[workload.drive]\nswing_angle = 90\nswing_time = 0.4\ninertia = 0.2\nshear_modulus = 8e10\n\
                     allowable_stress = 6e8\nviscous_damping = 3.1\n";

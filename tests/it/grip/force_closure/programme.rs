@@ -8,26 +8,6 @@ use proptest::prelude::*;
 
 type V = [f64; 3];
 
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn sum(a: V, b: V, s: f64) -> V {
-    [0, 1, 2].map(|i| a[i] + s * b[i])
-}
-
-fn norm(a: V) -> f64 {
-    a.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn unit(a: V) -> V {
-    a.map(|x| x / norm(a))
-}
-
 struct Disc {
     point: V,
     inwards: V,
@@ -38,10 +18,12 @@ struct Disc {
 /// Mean and root mean square distance of the discs' points.
 fn measure(discs: &[Disc]) -> (V, f64) {
     let n = discs.len() as f64;
-    let middle = discs.iter().fold([0.0; 3], |m, d| sum(m, d.point, 1.0 / n));
+    let middle = discs
+        .iter()
+        .fold([0.0; 3], |m, d| add_scaled(m, 1.0 / n, d.point));
     let square = discs
         .iter()
-        .map(|d| norm(sum(d.point, middle, -1.0)).powi(2));
+        .map(|d| length(add_scaled(d.point, -1.0, middle)).powi(2));
     (middle, (square.sum::<f64>() / n).sqrt())
 }
 
@@ -65,18 +47,18 @@ fn load(discs: &[Disc], direction: [f64; 6], edges: usize, outer: bool) -> f64 {
         let axes: [V; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let first = axes
             .into_iter()
-            .find(|a| norm(cross(*a, d.inwards)) > 1e-9)
+            .find(|a| length(cross(*a, d.inwards)) > 1e-9)
             .unwrap();
         let along = (0..3).map(|i| first[i] * d.inwards[i]).sum::<f64>();
-        let x = unit(sum(first, d.inwards, -along));
+        let x = unit(add_scaled(first, -along, d.inwards));
         let y = cross(d.inwards, x);
-        let round = |angle: f64, r: f64| sum(x.map(|c| c * r * angle.cos()), y, r * angle.sin());
+        let round = |angle: f64, r: f64| add_scaled(scale(x, r * angle.cos()), r * angle.sin(), y);
         for k in 0..rim {
-            let at = sum(d.point, round(TAU * k as f64 / rim as f64, d.radius), 1.0);
+            let at = add(d.point, round(TAU * k as f64 / rim as f64, d.radius));
             for e in 0..edges {
                 let slip = round(TAU * e as f64 / edges as f64, d.friction * wide);
-                let force = sum(d.inwards, slip, 1.0);
-                let moment = cross(sum(at, middle, -1.0), force).map(|m| m / size);
+                let force = add_scaled(d.inwards, 1.0, slip);
+                let moment = cross(add_scaled(at, -1.0, middle), force).map(|m| m / size);
                 let v = lp.add_var(0.0, (0.0, f64::INFINITY));
                 normals.push((v, 1.0));
                 for i in 0..3 {
@@ -95,7 +77,7 @@ fn load(discs: &[Disc], direction: [f64; 6], edges: usize, outer: bool) -> f64 {
 }
 
 fn vector() -> impl Strategy<Value = V> {
-    [-1.0..1.0f64, -1.0..1.0, -1.0..1.0].prop_filter("not small", |v| norm(*v) > 0.3)
+    [-1.0..1.0f64, -1.0..1.0, -1.0..1.0].prop_filter("not small", |v| length(*v) > 0.3)
 }
 
 /// A disc whose normal looks inwards, tipped a little.
@@ -114,7 +96,7 @@ proptest! {
             .into_iter()
             .map(|(p, tip, friction, radius)| Disc {
                 point: unit(p),
-                inwards: unit(sum(unit(p).map(|c| -c), tip, 0.2)),
+                inwards: unit(add_scaled(scale(unit(p), -1.0), 0.2, tip)),
                 friction,
                 radius,
             })
@@ -143,7 +125,7 @@ proptest! {
         }
         // No load of another direction is below the lower bound.
         let (m, f) = any;
-        let length = (norm(m).powi(2) + norm(f).powi(2)).sqrt();
+        let length = (length(m).powi(2) + length(f).powi(2)).sqrt();
         let d = [m[0], m[1], m[2], f[0], f[1], f[2]].map(|x| x / length);
         prop_assert!(load(&discs, d, 16, true) >= found.at_least - 1e-5);
     }

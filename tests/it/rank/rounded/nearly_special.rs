@@ -1,7 +1,7 @@
 //! What is nearly special in small mechanisms, against what is exact by hand: directions, places and reach.
 
 use crate::common::*;
-use ozols::geom::vector::{Vector, dot, unit};
+use ozols::geom::vector::Vector;
 use ozols::rank::rounded::nearly_special::nearly_special;
 use ozols::rank::rounded::nearly_special::relation::{NearJoint, Reach, Relation};
 use ozols::rank::rounded::size;
