@@ -48,12 +48,6 @@ fn shell_fails(folder: &Path, words: &str, says: &str) {
     assert!(said.contains(says), "{words}: {said}");
 }
 
-/// Exit code, standard output and standard error of a command that reads this from standard input.
-fn fed<L: Line + ?Sized>(args: &L, input: &str) -> (Option<i32>, String, String) {
-    let o = ozols(args).write_stdin(input).output().unwrap();
-    (o.status.code(), text(&o.stdout), text(&o.stderr))
-}
-
 fn four_bar() -> String {
     out(&["show", "four-bar"])
 }

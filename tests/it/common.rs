@@ -183,6 +183,12 @@ pub(crate) fn ran<L: Line + ?Sized>(args: &L) -> (Option<i32>, String, String) {
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }
 
+/// Exit code, standard output and standard error of a command that reads this from standard input.
+pub(crate) fn fed<L: Line + ?Sized>(args: &L, input: &str) -> (Option<i32>, String, String) {
+    let o = ozols(args).write_stdin(input).output().unwrap();
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
 /// Standard output and standard error of a command that succeeds.
 #[track_caller]
 pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {

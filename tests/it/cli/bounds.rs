@@ -1,6 +1,6 @@
 //! Budgets of nodes, memory and threads, and files that are too large: an honest stop or a message, never an abort.
 
-use super::{fed, shell};
+use super::shell;
 use crate::common::*;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
