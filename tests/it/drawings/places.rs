@@ -2,6 +2,7 @@
 //! different places does not overlap.
 
 use super::reading::covers;
+use super::subject;
 use crate::common::*;
 use ozols::draw::{Drawing, Sight, Subject, kinematic, kinematic_seen};
 
@@ -330,12 +331,7 @@ fn the_frame_is_drawn_once_at_each_of_its_places() {
 #[test]
 fn a_side_can_be_asked_for() {
     let m = built_in("bennett");
-    let subject = Subject {
-        mechanism: &m,
-        state: StateId::FREE,
-        analysis: None,
-        marks: None,
-    };
+    let subject = subject(&m);
     let seen = |toward: [f64; 3], up: Option<[f64; 3]>| {
         let sight = Sight {
             toward: Some(toward),

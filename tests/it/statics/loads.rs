@@ -10,11 +10,7 @@ use ozols::statics::solve::{Model, SolvedReactions, solve};
 
 /// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.
 fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
-    let normal = [
-        along[1] * up[2] - along[2] * up[1],
-        along[2] * up[0] - along[0] * up[2],
-        along[0] * up[1] - along[1] * up[0],
-    ];
+    let normal = cross(along, up);
     let joints = [
         ("0-1 | 0 1", 0.0, 0.0),
         ("1-2 | 1 2", 0.0, 1.0),
