@@ -7,9 +7,8 @@ use crate::sources::root;
 use std::path::Component;
 
 /// Folders of other projects' files. Who names them here does without where they are missing.
-const OTHERS: [(&str, &str); 4] = [
+const OTHERS: [(&str, &str); 3] = [
     (".ci/run", "../shared"),
-    ("tests/it/common.rs", "../shared/assemblies"),
     ("tests/peers/run", "../shared/models"),
     ("tests/peers/run", "../shared/assemblies"),
 ];

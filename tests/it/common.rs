@@ -7,7 +7,6 @@ pub(crate) use names::*;
 use ozols::linalg::echelon;
 use ozols::linalg::modp::Residue;
 use std::hash::{BuildHasher, Hasher, RandomState};
-use std::io::Write;
 pub(crate) use tempfile::{TempDir, tempdir};
 
 /// A command line: its words, or a text with blanks between them.
@@ -137,28 +136,6 @@ pub(crate) fn data(name: &str) -> String {
     text(&data_bytes(name))
 }
 
-/// Returns the folder of assemblies of other projects, which are no part of this one: the folder that `OZOLS_ASSEMBLIES` names, or
-/// the one beside the repository. Where it is missing, one line on standard error says so for all tests that want it.
-pub(crate) fn assemblies_of_others() -> Option<&'static Path> {
-    static FOLDER: OnceLock<Option<PathBuf>> = OnceLock::new();
-    let find = || {
-        let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/assemblies");
-        let named = std::env::var_os("OZOLS_ASSEMBLIES");
-        let folder = named.map_or_else(beside, PathBuf::from);
-        if folder.is_dir() {
-            return Some(folder);
-        }
-        // Not by a macro: the harness shows what these print for tests that fail alone.
-        let _ = writeln!(
-            std::io::stderr(),
-            "skipped: assemblies of other projects, as there is no folder {} (OZOLS_ASSEMBLIES names another)",
-            folder.display()
-        );
-        None
-    };
-    FOLDER.get_or_init(find).as_deref()
-}
-
 /// Returns what is usual but for a change.
 pub(crate) fn but<T: Default>(change: impl FnOnce(&mut T)) -> T {
     let mut out = T::default();
@@ -203,6 +180,12 @@ pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
 /// Exit code, standard output and standard error of a command.
 pub(crate) fn ran<L: Line + ?Sized>(args: &L) -> (Option<i32>, String, String) {
     let o = run(args);
+    (o.status.code(), text(&o.stdout), text(&o.stderr))
+}
+
+/// Exit code, standard output and standard error of a command that reads this from standard input.
+pub(crate) fn fed<L: Line + ?Sized>(args: &L, input: &str) -> (Option<i32>, String, String) {
+    let o = ozols(args).write_stdin(input).output().unwrap();
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }
 

@@ -20,6 +20,16 @@ use ozols::draw::{Drawing, Marks, Rect, Subject, kinematic, scheme};
 use ozols::search::question::conditions::InState;
 use std::fmt::Write as _;
 
+/// A mechanism in its free state, to be drawn as it is.
+fn subject(mechanism: &Mechanism) -> Subject<'_> {
+    Subject {
+        mechanism,
+        state: StateId::FREE,
+        analysis: None,
+        marks: None,
+    }
+}
+
 /// Contact sheets, one a family, to look at: `contact-sheets` in the folder that cargo gives tests.
 #[derive(Default)]
 struct Sheets(BTreeMap<&'static str, Vec<(String, String)>>);
@@ -175,36 +185,28 @@ fn variants_are_marked() {
 
 /// A four-bar in the plane that these two vectors span.
 fn tilted(across: [f64; 3], up: [f64; 3]) -> Mechanism {
-    let normal = [
-        across[1] * up[2] - across[2] * up[1],
-        across[2] * up[0] - across[0] * up[2],
-        across[0] * up[1] - across[1] * up[0],
-    ];
+    let normal = cross(across, up);
     let at = |x: f64, y: f64| [0, 1, 2].map(|i| 7.0 + across[i] * x + up[i] * y);
-    let mut text = String::from("name = \"tilted\"\n");
-    for id in ["0", "1", "2", "3"] {
-        let role = match id {
-            "0" => "role = \"frame\"\n",
-            "3" => "role = \"output\"\n",
-            _ => "",
-        };
-        writeln!(text, "[[link]]\nid = \"{id}\"\n{role}").unwrap();
-    }
+    let vector = |v: [f64; 3]| v.map(|x| format!("{x:?}")).join(", ");
     let joints = [
-        ("0", "1", 0.0, 0.0),
-        ("1", "2", 0.0, 2.0),
-        ("2", "3", 5.0, 4.0),
-        ("3", "0", 6.0, 0.0),
+        ("0-1 | 0 1", 0.0, 0.0),
+        ("1-2 | 1 2", 0.0, 2.0),
+        ("2-3 | 2 3", 5.0, 4.0),
+        ("3-0 | 3 0", 6.0, 0.0),
     ];
-    for (a, b, x, y) in joints {
-        writeln!(
-            text,
-            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {:?}\naxis = {normal:?}",
-            at(x, y)
+    let line = |(links, x, y)| {
+        format!(
+            "{links} | revolute | {} | {}",
+            vector(at(x, y)),
+            vector(normal)
         )
-        .unwrap();
-    }
-    mechanism_from_str("tilted.toml", &text).unwrap()
+    };
+    let joints = joints.map(line).join("\n");
+    mechanism_from_str(
+        "tilted.toml",
+        &file_of("name = \"tilted\"", "0 1 2 3*", &joints),
+    )
+    .unwrap()
 }
 
 #[test]
@@ -216,12 +218,7 @@ fn a_plane_is_seen_face_on() {
         ([1.0, 2.0, 2.0], [2.0, 1.0, -2.0], "seen face-on"),
     ] {
         let m = tilted(across, up);
-        let d = kinematic(&Subject {
-            mechanism: &m,
-            state: StateId::FREE,
-            analysis: None,
-            marks: None,
-        });
+        let d = kinematic(&subject(&m));
         assert!(
             d.svg.contains(&format!("Kinematic scheme {name}")),
             "{across:?} {up:?}"
@@ -241,12 +238,7 @@ fn a_plane_is_seen_face_on() {
 #[test]
 fn links_side_by_side_show_their_contour() {
     let m = built_in("door-two-hinges");
-    let d = scheme(&Subject {
-        mechanism: &m,
-        state: StateId::FREE,
-        analysis: None,
-        marks: None,
-    });
+    let d = scheme(&subject(&m));
     let doc = roxmltree::Document::parse(&d.svg).unwrap();
     let mut tint = doc
         .descendants()
@@ -265,12 +257,7 @@ fn links_side_by_side_show_their_contour() {
 fn the_same_bytes_each_time() {
     for name in ["gripper-10", "double-banana", "stewart-gough", "y-star"] {
         let m = built_in(name);
-        let subject = Subject {
-            mechanism: &m,
-            state: StateId::FREE,
-            analysis: None,
-            marks: None,
-        };
+        let subject = subject(&m);
         assert_eq!(scheme(&subject).svg, scheme(&subject).svg);
         assert_eq!(kinematic(&subject).svg, kinematic(&subject).svg);
     }

@@ -134,57 +134,27 @@ fn standard_diameters_are_taken_from_the_least() {
 /// Each remedy, taken alone, is just enough.
 #[test]
 fn remedies_are_sharp() {
-    let tight = Wanted {
+    let tight = || Wanted {
         max_length: Some(0.2),
         ..wanted()
     };
-    let sizing = tight.size();
+    let sizing = tight().size();
     assert!(sizing.bar.is_none());
     let r = sizing.remedy.unwrap();
-    let works = |w: Wanted| {
-        Wanted {
-            length: w.max_length,
-            ..w
-        }
-        .size()
-        .bar
-        .is_some()
+    let works = |change: &dyn Fn(&mut Wanted)| {
+        let mut w = tight();
+        change(&mut w);
+        w.length = w.max_length;
+        w.size().bar.is_some()
     };
     for (factor, should) in [(1.0001, true), (0.9999, false)] {
+        assert_eq!(works(&|w| w.max_length = Some(r.length * factor)), should);
         assert_eq!(
-            works(Wanted {
-                max_length: Some(r.length * factor),
-                ..tight.clone()
-            }),
+            works(&|w| w.allowable_stress = r.allowable_stress * factor),
             should
         );
-        assert_eq!(
-            works(Wanted {
-                allowable_stress: r.allowable_stress * factor,
-                ..tight.clone()
-            }),
-            should
-        );
-        assert_eq!(
-            works(Wanted {
-                period: r.period * factor,
-                ..tight.clone()
-            }),
-            should
-        );
-        assert_eq!(
-            works(Wanted {
-                twist: r.twist / factor,
-                ..tight.clone()
-            }),
-            should
-        );
-        assert_eq!(
-            works(Wanted {
-                inertia: r.inertia / factor,
-                ..tight.clone()
-            }),
-            should
-        );
+        assert_eq!(works(&|w| w.period = r.period * factor), should);
+        assert_eq!(works(&|w| w.twist = r.twist / factor), should);
+        assert_eq!(works(&|w| w.inertia = r.inertia / factor), should);
     }
 }

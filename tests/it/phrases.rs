@@ -109,48 +109,32 @@ fn a_mechanism_without_an_output_can_be_analysed() {
 fn options_may_name_types_that_the_file_does_not_list() {
     let own = out(&["show", "four-bar"]);
     assert!(!own.contains("sphere-in-cylinder"));
-    let search = |more: &[&str]| {
-        let args = [
-            &["search", "four-bar", "--format", "json", "--top", "3"],
-            more,
-        ]
-        .concat();
-        let o = run(&args);
-        (o.status.code(), text(&o.stdout), text(&o.stderr))
-    };
-    let (code, said, err) = search(&["--options", "sphere-in-cylinder"]);
+    let search = |more: &str| ran(&format!("search four-bar --format json --top 3 {more}"));
+    let (code, said, err) = search("--options sphere-in-cylinder");
     assert_eq!(code, Some(0), "{err}");
     assert!(said.contains("sphere-in-cylinder"));
     has(&err, "sphere-in-cylinder is not in the file");
-    let (code, said, _) = search(&["--allow", "2-3=sphere-in-cylinder"]);
+    let (code, said, _) = search("--allow 2-3=sphere-in-cylinder");
     assert!(code.is_some_and(|c| c < 2), "{said}");
     // a type that loses the present motion, and no type at all
-    let (code, _, err) = search(&["--options", "prismatic"]);
+    let (code, _, err) = search("--options prismatic");
     assert_eq!(code, Some(2));
     has(&err, "prismatic does not allow the present motion");
-    let (code, _, err) = search(&["--options", "nonsuch"]);
+    let (code, _, err) = search("--options nonsuch");
     assert_eq!(code, Some(2));
     has(&err, "no joint type is named so; there are: ");
 }
 
 #[test]
 fn where_nothing_is_found_types_that_would_help_are_named_and_do() {
-    let o = run(&["search", "four-bar", "--options", "cylindrical"]);
-    assert_eq!(o.status.code(), Some(1));
-    let said = text(&o.stdout);
+    let (code, said, _) = ran("search four-bar --options cylindrical");
+    assert_eq!(code, Some(1));
     let command = said
         .lines()
         .map(str::trim)
         .find(|l| l.starts_with("ozols search") && l.contains("spherical"));
     let command = command.unwrap_or_else(|| panic!("{said}"));
-    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
-    let again = run(&words);
-    assert_eq!(
-        again.status.code(),
-        Some(0),
-        "{command}: {}",
-        text(&again.stderr)
-    );
+    done(command.strip_prefix("ozols ").unwrap());
 }
 
 #[test]
@@ -158,37 +142,23 @@ fn exported_variants_can_be_searched_again() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("v.toml");
     let path = path.to_str().unwrap();
-    for (name, more) in [
-        ("gripper-10", &[][..]),
-        ("parallelogram-gripper", &[]),
-        ("gripper-10", &["--state", "clamped"]),
+    for asked in [
+        "gripper-10",
+        "parallelogram-gripper",
+        "gripper-10 --state clamped",
     ] {
-        let args = [
-            &["export", name, "--variant", "2", "--to", "toml", "-o", path],
-            more,
-        ]
-        .concat();
-        assert_eq!(run(&args).status.code(), Some(0), "{name}");
-        let o = run(&["check", path]);
-        assert_eq!(o.status.code(), Some(0), "{name}: {}", text(&o.stderr));
+        let name = words(asked)[0];
+        done(&format!("export {asked} --variant 2 --to toml -o {path}"));
+        done(&["check", path]);
         let said = fs::read_to_string(path).unwrap();
         assert!(
             said.contains(&format!("Variant 2 of {name}")) && said.contains("options = "),
             "{name}"
         );
         // what it has now needs no change, and more can be chosen
-        let args = [
-            "search",
-            path,
-            "--top",
-            "1",
-            "--check",
-            "none",
-            "--no-count",
-            "--format",
-            "json",
-        ];
-        let again = json(&args);
+        let again = json(&format!(
+            "search {path} --top 1 --check none --no-count --format json"
+        ));
         assert_eq!(again["variants"][0]["cost"], 0, "{name}");
         let total: String = again["space"].word().to_owned();
         assert!(total.len() > 1, "{name}: {total}");
@@ -197,12 +167,11 @@ fn exported_variants_can_be_searched_again() {
 
 #[test]
 fn a_catalogue_that_is_not_there_says_how_to_make_one() {
-    for command in [&["query"][..], &["show"], &["export"]] {
-        let id = [&["x"][..], &[]][usize::from(command == ["query"])];
-        let o = run(&[&["catalog"], command, &["none.db"], id].concat());
-        assert_eq!(o.status.code(), Some(2));
-        let err = text(&o.stderr);
-        has(&err, "`ozols catalog build -o none.db` makes a catalogue");
+    for line in ["query none.db", "show none.db x", "export none.db x"] {
+        fails(
+            &format!("catalog {line}"),
+            "`ozols catalog build -o none.db` makes a catalogue",
+        );
     }
     assert!(!Path::new("none.db").exists());
 }
@@ -245,9 +214,6 @@ fn freedoms_that_a_shaky_pose_stops_are_counted() {
 /// The planar formula refuses a mechanism that is not planar, and names the mode that makes it planar.
 #[test]
 fn the_planar_formula_names_the_mode_that_it_needs() {
-    let formula = ["--method", "count-planar"];
-    let refused = run(&[&["analyze", "gripper-10"], &formula[..]].concat());
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(text(&refused.stderr).contains("planar mode"));
-    out(&[&["analyze", "gripper-10", "--planar"], &formula[..]].concat());
+    fails("analyze gripper-10 --method count-planar", "planar mode");
+    out("analyze gripper-10 --planar --method count-planar");
 }

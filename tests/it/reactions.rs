@@ -28,10 +28,6 @@ fn vector(v: [f64; 3]) -> [Expr; 3] {
     v.map(expr)
 }
 
-fn real(v: &[Expr; 3]) -> [f64; 3] {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
-}
-
 /// Masses at the places of the joints, a little beside, from a seed of numbers between 0 and 1.
 fn with_masses(m: &mut Mechanism, seed: &[f64]) {
     let mut next = seed.iter().copied().cycle();
@@ -66,7 +62,7 @@ fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
     let metres = m.length_unit.metres;
     let place = |p: &[Expr; 3]| real(p).map(|x| x * metres);
     let about = [0.3, -0.2, 0.5];
-    let planar = matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. });
+    let planar = matches!(m.mode, Mode::Planar { .. });
     let (mut worst, mut greatest) = (0.0f64, 1e-300f64);
     let loaded = |l: LinkId| !matches!(m.links[l].role, Role::Frame | Role::Object);
     for l in m.link_ids().filter(|&l| loaded(l)) {
@@ -130,10 +126,7 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
     for name in SOLVED {
         let mut m = built_in(name);
         with_masses(&mut m, &[0.3, 0.9, 0.1, 0.7, 0.45, 0.62, 0.21]);
-        let s = match Reactions::solve(&m, StateId::FREE, &m.loads) {
-            Ok(s) => s,
-            Err(e) => panic!("{name}: {e}"),
-        };
+        let s = solve(&m);
         assert!(s.residual < 1e-10, "{name}: {}", s.residual);
         assert!(left_over(&m, &s.reactions) < 1e-10, "{name}");
         assert_eq!(s.choice == Uniqueness::Unique, s.self_stresses.is_empty());
@@ -146,7 +139,7 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
             let joint = &m.joints[r.joint];
             for f in joint.joint_type.freedoms() {
                 use ozols::model::joint_type::Freedom as F;
-                let planar = matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. });
+                let planar = matches!(m.mode, Mode::Planar { .. });
                 let work = match f {
                     F::Rx => r.moment[0] / s.size,
                     F::Ry => r.moment[1] / s.size,
@@ -249,7 +242,7 @@ proptest! {
     #[test]
     fn reactions_do_not_depend_on_the_frame(which in 0..SOLVED.len(), seed in prop::collection::vec(0.0..1.0f64, 11..40)) {
         let mut m = built_in(SOLVED[which]);
-        prop_assume!(!matches!(m.mode, ozols::model::mechanism::Mode::Planar { .. }));
+        prop_assume!(!matches!(m.mode, Mode::Planar { .. }));
         with_masses(&mut m, &seed);
         let before = solve(&m);
         // A turn with rational entries, so that expressions stay short.
@@ -319,13 +312,11 @@ fn loads_on_a_motion_that_nothing_holds_are_told_with_the_link() {
 #[test]
 fn the_drive_of_a_ball_holds_its_own_turn() {
     let solve = |moment: &str| {
-        let text = format!(
-            "name = \"ball\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n\
-             [[joint]]\nid = \"B\"\nlinks = [\"0\", \"a\"]\ntype = \"spherical\"\npoint = [0, 0, 5]\naxis = [0, 0, 1]\n\
-             reference = [1, 0, 0]\ndrive = true\n\
-             [[joint]]\nid = \"S\"\nlinks = [\"0\", \"a\"]\ntype = \"custom\"\nfreedoms = [\"rx\", \"rz\", \"tz\"]\npoint = [0, 0, 0]\n\
-             axis = [0, 0, 1]\nreference = [1, 0, 0]\n[[workload.moment]]\nlink = \"a\"\nmoment = {moment}\n"
-        );
+        let joints = "
+            B | 0 a | spherical | 0, 0, 5 | 0, 0, 1 | reference = [1, 0, 0]\\ndrive = true
+            S | 0 a | custom | 0, 0, 0 | 0, 0, 1 | freedoms = [\"rx\", \"rz\", \"tz\"]\\nreference = [1, 0, 0]";
+        let load = format!("[[workload.moment]]\nlink = \"a\"\nmoment = {moment}\n");
+        let text = file_of("name = \"ball\"", "0 a*", joints) + &load;
         let m = mechanism_from_str("ball.toml", &text).unwrap();
         let found = ozols::statics::reactions::cycle(&m, StateId::FREE, None).unwrap();
         found.positions[0].1.clone().unwrap()
@@ -349,11 +340,11 @@ fn the_drive_of_a_ball_holds_its_own_turn() {
 #[test]
 fn nearly_equal_axes_are_told() {
     let with = |tilt: &str| {
-        let text = format!(
-            "name = \"near\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"a\"\nrole = \"output\"\n\
-             [[joint]]\nid = \"B\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 5]\naxis = [0, 0, 1]\n\
-             [[joint]]\nid = \"S\"\nlinks = [\"0\", \"a\"]\ntype = \"revolute\"\npoint = [0, 0, 0]\naxis = [\"{tilt}\", 0, 1]\n"
+        let joints = format!(
+            "B | 0 a | revolute | 0, 0, 5 | 0, 0, 1
+             S | 0 a | revolute | 0, 0, 0 | \"{tilt}\", 0, 1"
         );
+        let text = file_of("name = \"near\"", "0 a*", &joints);
         let (_folder, path) = written("near.toml", text);
         out(&["statics", path, "--spatial"])
     };

@@ -14,7 +14,6 @@ mod stability;
 mod structure;
 
 use ozols::statics::planar::{PairId, PlanarMechanism};
-use std::fmt::Write;
 
 /// One joint of a test mechanism: "a-b" with R, or P and its direction, at a point.
 #[derive(Debug, Clone)]
@@ -50,40 +49,29 @@ pub(crate) type Mass = (f64, [f64; 2], f64);
 
 /// The same with masses by link.
 pub(crate) fn file_with(joints: &[J], mass: &dyn Fn(&str) -> Option<Mass>, more: &str) -> String {
-    let mut links: Vec<&String> = joints
+    let links: BTreeSet<&str> = joints
         .iter()
-        .flat_map(|j| [&j.links.0, &j.links.1])
+        .flat_map(|j| [&*j.links.0, &j.links.1])
         .collect();
-    links.sort();
-    links.dedup();
-    let mut text = String::from("name = \"t\"\nmode = \"planar\"\n");
-    for (i, l) in links.iter().enumerate() {
-        let role = match (l.as_str(), i + 1 == links.len()) {
-            ("0", _) => "role = \"frame\"",
-            (_, true) => "role = \"output\"",
-            _ => "",
-        };
-        writeln!(text, "[[link]]\nid = \"{l}\"\n{role}").unwrap();
-        if let Some((m, [x, y], i)) = mass(l) {
-            writeln!(
-                text,
-                "mass = {m:?}\ncentre = [{x:?}, {y:?}, 0]\ninertia = {i:?}"
-            )
-            .unwrap();
-        }
-    }
-    for (i, j) in joints.iter().enumerate() {
-        let (a, b) = &j.links;
-        let kind = match j.slide {
-            None => "type = \"revolute\"\naxis = [0, 0, 1]".to_owned(),
-            Some([x, y]) => format!("type = \"prismatic\"\naxis = [{x:?}, {y:?}, 0]"),
-        };
-        writeln!(
-            text,
-            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\n{kind}\npoint = [{:?}, {:?}, 0]\ndrive = {}",
-            j.at[0], j.at[1], i == 0
+    let line = |(i, j): (usize, &J)| {
+        let ((a, b), [x, y]) = (&j.links, j.at);
+        let along = j.slide.map(|[x, y]| format!("prismatic | {x:?}, {y:?}, 0"));
+        let kind = along.unwrap_or("revolute | 0, 0, 1".to_owned());
+        let (kind, axis) = kind.split_once(" | ").unwrap();
+        format!(
+            "{a}-{b} | {a} {b} | {kind} | {x:?}, {y:?}, 0 | {axis} | drive = {}",
+            i == 0
         )
-        .unwrap();
+    };
+    let joints = joints.iter().enumerate().map(line).join("\n");
+    let head = "name = \"t\"\nmode = \"planar\"";
+    let mut text = file_of(head, &(links.iter().join(" ") + "*"), &joints);
+    for l in links {
+        if let Some((m, [x, y], i)) = mass(l) {
+            let link = format!("[[link]]\nid = \"{l}\"\n");
+            let heavy = format!("mass = {m:?}\ncentre = [{x:?}, {y:?}, 0]\ninertia = {i:?}\n");
+            text = changed(&text, &link, &(link.clone() + &heavy));
+        }
     }
     text + more
 }

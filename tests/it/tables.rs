@@ -77,13 +77,13 @@ fn texts_of_robots_fit() {
     ] {
         let (of, name) = (file.parent().unwrap(), file.file_name().unwrap());
         for command in [
-            &["analyze"][..],
-            &["check"],
-            &["lint"],
-            &["search", "--top", "3", "--nodes", "20000"],
-            &["statics"],
+            "analyze",
+            "check",
+            "lint",
+            "search --top 3 --nodes 20000",
+            "statics",
         ] {
-            let args = [command, &[name.to_str().unwrap(), "-q"]].concat();
+            let args = format!("{command} {} -q", name.display());
             let o = ozols(&args)
                 .current_dir(of)
                 .env("OZOLS_WIDTH", "80")
@@ -91,7 +91,7 @@ fn texts_of_robots_fit() {
                 .unwrap();
             let said = String::from_utf8(o.stdout).unwrap();
             // Statics refuses what it has no forces for.
-            if o.status.code() != Some(2) || command[0] != "statics" {
+            if o.status.code() != Some(2) || command != "statics" {
                 assert!(matches!(o.status.code(), Some(0 | 1)), "{args:?}");
                 assert!(o.stderr.is_empty() && !said.is_empty(), "{args:?}");
             }
@@ -104,20 +104,9 @@ fn texts_of_robots_fit() {
 /// What every command says fits 80 to 200 columns, but for what is to be copied: commands, and lines of a file.
 #[test]
 fn texts_fit_the_width_there_is() {
-    for args in [
-        &["analyze", "gripper-10"][..],
-        &["search", "gripper-10", "--top", "5"],
-        &["list"],
-        &["check", "gripper-10"],
-        &["explain", "universal"],
-        &["explain", "sphere-in-cylinder"],
-        &["explain", "class"],
-        &["show", "costs"],
-        &["statics", "four-bar"],
-        &["grip", "lever-gripper"],
-        &["drive", "torsion-module"],
-        &["catalog", "count"],
-    ] {
+    let lines = "analyze gripper-10/search gripper-10 --top 5/list/check gripper-10/explain universal/explain sphere-in-cylinder\
+        /explain class/show costs/statics four-bar/grip lever-gripper/drive torsion-module/catalog count";
+    for args in lines.split('/') {
         for width in [80, 120, 200] {
             let o = ozols(args)
                 .env("OZOLS_WIDTH", width.to_string())

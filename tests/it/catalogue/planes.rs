@@ -25,8 +25,8 @@ fn points(g: &Gripper, x: &[f64], link: usize) -> Vec<Named> {
     own.chain(tip).collect()
 }
 
-fn apart(a: Point, b: Point) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+fn distance(a: Point, b: Point) -> f64 {
+    length(sub(a, b))
 }
 
 /// How far a point is from a bar or a plate: 0 within. A plate is all between its points, two by two.
@@ -39,13 +39,13 @@ fn off(body: &[Named], p: Point) -> f64 {
         let (mut lo, mut hi) = (0.0, 1.0);
         for _ in 0..80 {
             let (m, n) = (lo + (hi - lo) / 3.0, hi - (hi - lo) / 3.0);
-            if apart(at(m), p) < apart(at(n), p) {
+            if distance(at(m), p) < distance(at(n), p) {
                 hi = n
             } else {
                 lo = m
             }
         }
-        apart(at(lo), p)
+        distance(at(lo), p)
     };
     let nearest = bars.map(off).fold(f64::INFINITY, f64::min);
     // Within a triangle of its points the angles seen from there make a whole turn.
@@ -104,7 +104,7 @@ impl Met {
                     };
                     let closed = tip(x)
                         .zip(tip(y))
-                        .is_some_and(|(a, b)| apart(a.1, b.1) < near.max(6.0));
+                        .is_some_and(|(a, b)| distance(a.1, b.1) < near.max(6.0));
                     names.iter().all_unique() && !closed && cross([x.0.1, x.1.1], [y.0.1, y.1.1])
                 });
                 if crossing {

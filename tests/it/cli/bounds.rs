@@ -1,32 +1,20 @@
 //! Budgets of nodes, memory and threads, and files that are too large: an honest stop or a message, never an abort.
 
+use super::shell;
 use crate::common::*;
-use std::fmt::Write;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
 /// A file of links `0` to `n`, the last the output, and these joints between links, hinges along z at odd places.
 fn file(n: usize, joints: &[(usize, usize)]) -> String {
-    let mut out =
-        "name = \"many\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"spherical\"]\n"
-            .to_owned();
-    for i in 0..=n {
-        let role = match i {
-            0 => "role = \"frame\"",
-            _ if i == n => "role = \"output\"",
-            _ => "",
-        };
-        write!(out, "[[link]]\nid = \"{i}\"\n{role}\n").unwrap();
-    }
-    for (i, (a, b)) in joints.iter().enumerate() {
+    let head =
+        "name = \"many\"\n[search]\noptions = [\"revolute\", \"cylindrical\", \"spherical\"]";
+    let line = |(i, (a, b)): (usize, &(usize, usize))| {
         let (x, y) = (i * 37 % 101, i * i * 17 % 89);
-        write!(
-            out,
-            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\n"
-        )
-        .unwrap();
-    }
-    out
+        format!("j{i} | {a} {b} | revolute | {x}, {y}, 0 | 0, 0, 1")
+    };
+    let joints = joints.iter().enumerate().map(line).join("\n");
+    file_of(head, &((0..=n).join(" ") + "*"), &joints)
 }
 
 /// A ladder of contours that each share two links with the one before.
@@ -43,13 +31,9 @@ fn ladder(contours: usize) -> String {
 
 fn found(text: &str, more: &[&str]) -> Value {
     let args = [&["search", "-", "--count", "--format", "json"], more].concat();
-    let o = ozols(&args).write_stdin(text).output().unwrap();
-    assert!(
-        matches!(o.status.code(), Some(0 | 1)),
-        "{}",
-        self::text(&o.stderr)
-    );
-    serde_json::from_slice(&o.stdout).unwrap()
+    let (code, told, said) = fed(&args, text);
+    assert!(matches!(code, Some(0 | 1)), "{said}");
+    serde_json::from_str(&told).unwrap()
 }
 
 fn number(v: &Value) -> BigUint {
@@ -109,21 +93,10 @@ fn what_finished_within_the_memory_stays_exact() {
 fn tallies_stay_within_the_memory() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("x.toml"), ladder(20)).unwrap();
-    let command = format!(
-        "ulimit -v 1000000; exec '{}' search x.toml --nodes 1 --count --threads 2 --format json",
-        env!("CARGO_BIN_EXE_ozols")
-    );
-    let o = Command::new("sh")
-        .args(["-c", &command])
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    assert!(
-        matches!(o.status.code(), Some(0 | 1)),
-        "{:?} {}",
-        o.status,
-        text(&o.stderr)
-    );
+    let line =
+        "ulimit -v 1000000; exec ozols search x.toml --nodes 1 --count --threads 2 --format json";
+    let o = shell(folder.path(), line);
+    assert!(matches!(o.status.code(), Some(0 | 1)), "{o:?}");
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["exact"], false);
 }
@@ -135,19 +108,9 @@ fn scarce_addresses_end_no_search() {
     let folder = tempdir().unwrap();
     for contours in [8, 20] {
         fs::write(folder.path().join("x.toml"), ladder(contours)).unwrap();
-        let command = format!(
-            "ulimit -v 200000; exec '{}' search x.toml --count --check none --threads 4 --format json",
-            env!("CARGO_BIN_EXE_ozols")
-        );
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &command]).current_dir(&folder);
-        let o = shell.output().unwrap();
-        assert!(
-            matches!(o.status.code(), Some(0 | 1)),
-            "{contours}: {:?} {}",
-            o.status,
-            text(&o.stderr)
-        );
+        let line = "ulimit -v 200000; exec ozols search x.toml --count --check none --threads 4 --format json";
+        let o = shell(folder.path(), line);
+        assert!(matches!(o.status.code(), Some(0 | 1)), "{contours}: {o:?}");
     }
 }
 
@@ -155,20 +118,12 @@ fn scarce_addresses_end_no_search() {
 #[cfg(target_os = "linux")]
 #[test]
 fn limits_of_the_process_count() {
-    for (limit, most) in [("-v 400000", 98), ("-d 400000", 98)] {
-        let command = format!(
-            "ulimit {limit}; exec '{}' search four-bar --count",
-            env!("CARGO_BIN_EXE_ozols")
-        );
-        let o = Command::new("sh").args(["-c", &command]).output().unwrap();
-        let said = text(&o.stderr);
-        let allowed = said
-            .split('(')
-            .nth(1)
-            .and_then(|s| s.split(' ').next())
-            .unwrap();
-        let allowed: u32 = allowed.parse().unwrap();
-        assert!((20..=most).contains(&allowed), "{limit}: {said}");
+    for limit in ["-v 400000", "-d 400000"] {
+        let line = format!("ulimit {limit}; exec ozols search four-bar --count");
+        let said = text(&shell(Path::new("."), &line).stderr);
+        let (_, allowed) = said.split_once('(').unwrap();
+        let allowed: u32 = allowed.split(' ').next().unwrap().parse().unwrap();
+        assert!((20..=98).contains(&allowed), "{limit}: {said}");
     }
 }
 
@@ -193,14 +148,11 @@ fn no_reader_reads_without_a_bound() {
     ] {
         let _ = fs::remove_file(folder.path().join("robot.xml"));
         fs::hard_link(folder.path().join("huge"), folder.path().join("robot.xml")).unwrap();
-        let command = format!(
-            "ulimit -v 1000000; exec '{}' {line} --quiet",
-            env!("CARGO_BIN_EXE_ozols")
-        );
         let begun = std::time::Instant::now();
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &command]).current_dir(&folder);
-        let o = shell.output().unwrap();
+        let o = shell(
+            folder.path(),
+            &format!("ulimit -v 1000000; exec ozols {line} --quiet"),
+        );
         let said = text(&o.stderr);
         assert_eq!(o.status.code(), Some(2), "{line}: {said}");
         assert!(
@@ -249,12 +201,8 @@ fn budgets_may_be_said_in_several_units() {
 #[test]
 fn a_mechanism_too_entangled_is_refused_at_once() {
     let joints = vec![(0, 1); 3999];
-    let o = ozols(&["analyze", "-"])
-        .write_stdin(file(1, &joints))
-        .output()
-        .unwrap();
-    let said = text(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{said}");
+    let (code, _, said) = fed("analyze -", &file(1, &joints));
+    assert_eq!(code, Some(2), "{said}");
     has(&said, "23988 rows and 3999 columns");
 }
 
@@ -270,8 +218,7 @@ fn a_long_open_chain_is_analysed_and_its_search_refused() {
         .unwrap();
     let v: Value = serde_json::from_slice(&o.stdout).unwrap();
     assert_eq!(v["states"][0]["mobility"], 300);
-    let o = ozols(&["search", "-"]).write_stdin(chain).output().unwrap();
-    let said = text(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{said}");
+    let (code, _, said) = fed("search -", &chain);
+    assert_eq!(code, Some(2), "{said}");
     has(&said, "300 joints are in no contour");
 }

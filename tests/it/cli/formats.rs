@@ -35,7 +35,7 @@ fn keys_of_analyze() {
 
 #[test]
 fn keys_of_search() {
-    let v: Value = serde_json::from_str(&small_out(&["--format", "json", "--top", "3"])).unwrap();
+    let v: Value = serde_json::from_str(&small_out("--format json --top 3")).unwrap();
     for k in ["space", "determinate", "admissible"] {
         assert!(count(&v[k]) > 0, "{k}");
     }
@@ -64,21 +64,16 @@ fn keys_of_search() {
 
 #[test]
 fn top_0() {
-    let v: Value = serde_json::from_str(&small_out(&["--format", "json", "--top", "0"])).unwrap();
+    let v: Value = serde_json::from_str(&small_out("--format json --top 0")).unwrap();
     assert_eq!(v["variants"], serde_json::json!([]));
     assert_eq!(v["admissible"], "56");
-    assert_eq!(
-        small_out(&["--format", "csv", "--top", "0"])
-            .lines()
-            .count(),
-        1
-    );
-    assert_eq!(small_out(&["--top", "0"]), small_out(&["--count"]));
+    assert_eq!(small_out("--format csv --top 0").lines().count(), 1);
+    assert_eq!(small_out("--top 0"), small_out("--count"));
 }
 
 #[test]
 fn all_gives_the_admissible_ones() {
-    let csv = small_out(&["--all", "--format", "csv"]);
+    let csv = small_out("--all --format csv");
     let mut rows: Vec<&str> = csv
         .lines()
         .skip(1)
@@ -88,17 +83,14 @@ fn all_gives_the_admissible_ones() {
     rows.sort_unstable();
     rows.dedup();
     assert_eq!(rows.len(), 56, "no variant twice");
-    assert_eq!(
-        small_out(&["--all", "--format", "jsonl"]).lines().count(),
-        56
-    );
-    let v: Value = serde_json::from_str(&small_out(&["--all", "--format", "json"])).unwrap();
+    assert_eq!(small_out("--all --format jsonl").lines().count(), 56);
+    let v: Value = serde_json::from_str(&small_out("--all --format json")).unwrap();
     assert_eq!(v["variants"].list().len(), 56);
 }
 
 #[test]
 fn csv_columns() {
-    let csv = small_out(&["--format", "csv"]);
+    let csv = small_out("--format csv");
     let lines: Vec<Vec<&str>> = csv.lines().map(|l| l.split(',').collect()).collect();
     let joints = [
         "1-2", "2-3", "3-0", "2-4", "4-5", "5-1", "1-6", "6-7", "7-0", "6-8", "8-9", "9-1",
@@ -136,22 +128,20 @@ fn csv_columns() {
 // Orbits under the mirror image: (all + symmetric) / 2, by Burnside's lemma.
 #[test]
 fn symmetry_counts() {
-    let counts = |more: &[&str]| {
-        let args = small(&[&["--count", "--format", "json"][..], more].concat());
-        let o = run(&args.iter().map(String::as_str).collect_vec());
-        assert_ne!(o.status.code(), Some(2));
-        let v: Value = serde_json::from_slice(&o.stdout).unwrap();
+    let counts = |more: &str| {
+        let (code, told, _) = ran(&small(&format!("--count --format json {more}")));
+        assert_ne!(code, Some(2));
+        let v: Value = serde_json::from_str(&told).unwrap();
         (count(&v["determinate"]), count(&v["admissible"]))
     };
-    for more in [&[][..], &["--allow-output-change"]] {
-        let with = |flag: &'static str| counts(&[more, &[flag]].concat());
+    for more in ["", "--allow-output-change"] {
+        let with = |flag| counts(&format!("{more} {flag}"));
         let (all, symmetric, orbits) = (counts(more), with("--symmetric"), with("--one-per-orbit"));
         assert_eq!(
             orbits,
             ((all.0 + symmetric.0) / 2, (all.1 + symmetric.1) / 2)
         );
-        let listed =
-            small_out(&[&["--all", "--one-per-orbit", "--format", "csv"][..], more].concat());
+        let listed = small_out(&format!("--all --one-per-orbit --format csv {more}"));
         assert_eq!(listed.lines().count() as u64 - 1, orbits.1);
     }
 }

@@ -21,9 +21,9 @@ fn signals() -> impl Iterator<Item = (&'static str, i32)> {
 const MANY: &str = "revolute,cylindrical,universal,spherical";
 
 /// Starts a command in a folder.
-fn start(folder: &Path, args: &[&str]) -> Child {
+fn start<L: Line + ?Sized>(folder: &Path, args: &L) -> Child {
     Command::new(env!("CARGO_BIN_EXE_ozols"))
-        .args(args)
+        .args(args.words())
         .current_dir(folder)
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
@@ -70,18 +70,8 @@ fn a_list_that_is_cut_short_says_so_at_its_end() {
         for format in ["csv", "jsonl", "json"] {
             let folder = tempdir().unwrap();
             let folder = folder.path();
-            let args = [
-                "search",
-                "gripper-10",
-                "--all",
-                "--check",
-                "prime",
-                "--format",
-                format,
-                "-o",
-                "list",
-            ];
-            let child = start(folder, &args);
+            let line = format!("search gripper-10 --all --check prime --format {format} -o list");
+            let child = start(folder, &line);
             let o = interrupted(child, signal, || written(folder) > 100_000);
             assert_eq!(o.status.code(), Some(code), "{signal} {format}");
             assert!(text(&o.stderr).contains("interrupted by"), "{signal}");
@@ -148,18 +138,9 @@ fn a_list_of_a_bounded_search_says_so_at_its_end() {
 #[test]
 fn whatever_takes_long_ends_at_once() {
     for args in [
-        &["analyze", "delta", "--stroke", "0:20deg:9999", "-o", "x"][..],
-        &[
-            "search",
-            "gripper-10",
-            "--method",
-            "brute",
-            "--options",
-            MANY,
-            "-o",
-            "x",
-        ],
-        &["accuracy", "-o", "x"],
+        "analyze delta --stroke 0:20deg:9999 -o x",
+        &format!("search gripper-10 --method brute --options {MANY} -o x"),
+        "accuracy -o x",
     ] {
         let folder = tempdir().unwrap();
         let begun = Instant::now();
@@ -183,28 +164,8 @@ fn whatever_takes_long_ends_at_once() {
 fn a_ranking_and_poses_end_with_what_they_have() {
     let folder = tempdir().unwrap();
     for args in [
-        &[
-            "search",
-            "gripper-10-loaded",
-            "--pool",
-            "100000000",
-            "--rank",
-            "peak-force,conditioning",
-            "--check",
-            "none",
-            "--format",
-            "json",
-        ][..],
-        &[
-            "search",
-            "gripper-10",
-            "--poses",
-            "9000",
-            "--top",
-            "1000",
-            "--format",
-            "json",
-        ],
+        "search gripper-10-loaded --pool 100000000 --rank peak-force,conditioning --check none --format json",
+        "search gripper-10 --poses 9000 --top 1000 --format json",
     ] {
         let begun = Instant::now();
         let child = start(folder.path(), args);
@@ -253,11 +214,9 @@ fn what_is_cut_short_takes_nobodys_place() {
         let folder = tempdir().unwrap();
         let folder = folder.path();
         fs::write(folder.join(name), "whole and finished").unwrap();
-        let args: Vec<&str> = line.split(' ').collect();
         let begun = Instant::now();
-        let o = interrupted(start(folder, &args), "INT", || {
-            written(folder) > 100_000
-                || args[0] == "report" && begun.elapsed() > Duration::from_secs(4)
+        let o = interrupted(start(folder, line), "INT", || {
+            written(folder) > 100_000 || line == page && begun.elapsed() > Duration::from_secs(4)
         });
         let said = text(&o.stderr);
         assert_eq!(o.status.code(), Some(130), "{said}");
@@ -274,9 +233,7 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
     let folder = tempdir().unwrap();
     let folder = folder.path();
     let list = "search gripper-10 --all --check none --format csv -o list.csv";
-    let list: Vec<&str> = list.split(' ').collect();
-    let mut killed = start(folder, &list);
-    let mut going = start(folder, &list);
+    let [mut killed, mut going] = [(); 2].map(|()| start(folder, list));
     let temporary = || {
         let all = fs::read_dir(folder).unwrap().flatten();
         all.filter(|f| f.file_name().to_string_lossy().starts_with(".tmp"))
@@ -290,7 +247,7 @@ fn what_killed_runs_left_is_cleaned_by_the_next() {
     killed.wait().unwrap();
     assert_eq!(temporary(), 2);
     fs::write(folder.join(".tmpother"), "somebody else's").unwrap();
-    let check = start(folder, &["analyze", "four-bar", "-o", "x.txt"]);
+    let check = start(folder, "analyze four-bar -o x.txt");
     assert!(check.wait_with_output().unwrap().status.success());
     // That of the one that goes on is left, and so is what is none of ours.
     assert_eq!(temporary(), 2);

@@ -1,16 +1,7 @@
 //! Nothing is lost: outputs of one name, outputs that are read, disks and files that are full.
 
-use super::four_bar;
+use super::{four_bar, shell, shell_fails};
 use crate::common::*;
-use std::process::Command;
-
-/// Runs a command of a shell in a folder; `ozols` is the program.
-fn shell(folder: &Path, words: &str) -> Output {
-    let words = words.replace("ozols", &format!("'{}'", env!("CARGO_BIN_EXE_ozols")));
-    let mut sh = Command::new("sh");
-    sh.args(["-c", &words]).current_dir(folder);
-    sh.output().unwrap()
-}
 
 /// Names of the files in a folder, with what they hold.
 fn held(folder: &Path) -> Vec<(String, Vec<u8>)> {
@@ -33,14 +24,15 @@ fn two_outputs_of_one_name_are_refused() {
     let folder = folder.path();
     fs::create_dir(folder.join("sub")).unwrap();
     let path = |name: &str| folder.join(name).display().to_string();
-    let mut named = vec![
-        ["x", "x"].map(str::to_owned),
-        ["x", "./x"].map(str::to_owned),
-        ["x", "sub/../x"].map(str::to_owned),
-        ["sub/x", "sub//x"].map(str::to_owned),
-        ["-", "-"].map(str::to_owned),
-        ["x".to_owned(), path("x")],
+    let pairs = [
+        ["x", "x"],
+        ["x", "./x"],
+        ["x", "sub/../x"],
+        ["sub/x", "sub//x"],
+        ["-", "-"],
+        ["x", &path("x")],
     ];
+    let mut named = pairs.map(|pair| pair.map(str::to_owned)).to_vec();
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(folder.join("sub"), folder.join("link")).unwrap();
@@ -80,12 +72,8 @@ fn an_output_among_the_charts_is_refused() {
     let charts = folder.path().join("charts");
     let page = charts.join("index.html");
     let [charts, page] = [charts, page].map(|p| p.display().to_string());
-    let words = "statics parallel-shears --stroke 0:360deg:12 --svg";
-    let words: Vec<&str> = words.split(' ').collect();
-    let o = run(&[&words[..], &[&charts, "-o", &page]].concat());
-    let said = text(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{said}");
-    has(&said, "already written by this command");
+    let line = format!("statics parallel-shears --stroke 0:360deg:12 --svg {charts} -o {page}");
+    fails(&line, "already written by this command");
     assert!(fs::read_to_string(&page).unwrap().starts_with("<!"));
 }
 
@@ -110,15 +98,11 @@ fn standard_input_and_output_are_files_like_others() {
         "ozols analyze four-bar -o f.toml >> f.toml",
         "ozols analyze four-bar -o hard.toml >> f.toml",
     ] {
-        let o = shell(folder, words);
-        let said = text(&o.stderr);
-        assert_eq!(o.status.code(), Some(2), "{words}: {said}");
-        assert!(said.contains("another file"), "{words}: {said}");
+        shell_fails(folder, words, "another file");
         assert!(held(folder) == before, "{words}");
     }
     // The shell empties it first.
-    let o = shell(folder, "ozols analyze - < f.toml > f.toml");
-    assert_eq!(o.status.code(), Some(2), "{}", text(&o.stderr));
+    shell_fails(folder, "ozols analyze - < f.toml > f.toml", "");
     fs::write(&file, four_bar()).unwrap();
     let o = shell(folder, "ozols export - --to json < f.toml > new.json");
     assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
@@ -142,9 +126,7 @@ fn an_included_file_is_not_written_over() {
         ["export", "--to=toml"],
         ["draw", "-q"],
     ] {
-        let o = run(&[words[0], &main, words[1], "-o", &part]);
-        assert_eq!(o.status.code(), Some(2), "{words:?}");
-        assert!(text(&o.stderr).contains("is the input"));
+        fails(&[words[0], &main, words[1], "-o", &part], "is the input");
         assert_eq!(fs::read_to_string(&part).unwrap(), robot);
     }
 }
@@ -169,10 +151,11 @@ fn a_file_that_may_not_grow_is_an_error_with_its_name() {
         --help | standard output
 ",
     ) {
-        let o = shell(folder, &format!("ulimit -f 1; exec ozols {words} > said"));
-        let said = text(&o.stderr);
-        assert_eq!(o.status.code(), Some(2), "{words}: {said}");
-        assert!(said.contains(name), "{words}: {said}");
+        shell_fails(
+            folder,
+            &format!("ulimit -f 1; exec ozols {words} > said"),
+            name,
+        );
         let _ = fs::remove_file(folder.join("said"));
         // A database that was begun is carried on.
         let left = held(folder).into_iter().map(|f| f.0);
@@ -187,24 +170,13 @@ fn a_file_that_may_not_grow_is_an_error_with_its_name() {
 #[test]
 fn a_full_device_is_an_error_with_its_name() {
     let folder = tempdir().unwrap();
-    for words in [
-        "--help",
-        "--version",
-        "",
-        "search --help",
-        "help search",
-        "analyze four-bar",
-        "search four-bar --format json",
-        "list",
-        "completions bash",
-        "schema",
-    ] {
-        let o = shell(folder.path(), &format!("ozols {words} > /dev/full"));
-        let said = text(&o.stderr);
-        assert_eq!(o.status.code(), Some(2), "{words}: {said}");
-        assert!(
-            said.contains("cannot write standard output"),
-            "{words}: {said}"
+    let folder = folder.path();
+    let lines = "--help/--version//search --help/help search/analyze four-bar/search four-bar --format json/list/completions bash/schema";
+    for words in lines.split('/') {
+        shell_fails(
+            folder,
+            &format!("ozols {words} > /dev/full"),
+            "cannot write standard output",
         );
     }
     for words in [
@@ -212,12 +184,13 @@ fn a_full_device_is_an_error_with_its_name() {
         "draw four-bar",
         "search four-bar --format json",
     ] {
-        let o = shell(folder.path(), &format!("ozols {words} -o /dev/full"));
-        let said = text(&o.stderr);
-        assert_eq!(o.status.code(), Some(2), "{words}: {said}");
-        assert!(said.contains("cannot write /dev/full"), "{words}: {said}");
+        shell_fails(
+            folder,
+            &format!("ozols {words} -o /dev/full"),
+            "cannot write /dev/full",
+        );
     }
     // Who reads no further is no failure.
-    let o = shell(folder.path(), "(ozols --help; echo $? >&2) | true");
+    let o = shell(folder, "(ozols --help; echo $? >&2) | true");
     assert_eq!(text(&o.stderr), "0\n");
 }

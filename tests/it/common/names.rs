@@ -8,7 +8,9 @@ pub(crate) use ozols::closure::Closure;
 pub(crate) use ozols::file::text::mechanism_from_str;
 pub(crate) use ozols::geom::exact::ExactField;
 pub(crate) use ozols::geom::expr::Expr;
-pub(crate) use ozols::geom::vector::real;
+pub(crate) use ozols::geom::vector::{
+    add, add_scaled, cross, cross_plane, dot, length, quarter, real, scale, sub, unit,
+};
 pub(crate) use ozols::model::joint_type::{Freedom, JointType};
 pub(crate) use ozols::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};
 pub(crate) use ozols::redundancy::analysis::{Method, analyse, exact_field};
@@ -18,8 +20,7 @@ pub(crate) use serde_json::{Value, json};
 pub(crate) use std::collections::{BTreeMap, BTreeSet};
 pub(crate) use std::f64::consts::{PI, TAU};
 pub(crate) use std::fs;
-pub(crate) use std::path::Path;
-pub(crate) use std::path::PathBuf;
+pub(crate) use std::path::{Path, PathBuf};
 pub(crate) use std::process::Output;
 pub(crate) use std::sync::OnceLock;
 

@@ -1,7 +1,6 @@
 //! Idle freedoms as motions: what rests does so, joints stay together, and one sees what turns in its place.
 
 use crate::common::*;
-use ozols::geom::vector::{length, scale, sub};
 use ozols::motion::pose::Pose;
 use ozols::redundancy::local_mobility::wiggle;
 

@@ -4,25 +4,13 @@
 use super::places::all;
 use super::reading::{covers, texts};
 use crate::common::*;
-use ozols::draw::{Drawing, Rect, Subject, kinematic};
+use crate::drawings::subject;
+use ozols::draw::{Drawing, Rect, kinematic};
 
 type Point = [f64; 2];
 
-fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn length(a: Point) -> f64 {
-    a[0].hypot(a[1])
-}
-
 fn drawn(m: &Mechanism) -> Drawing {
-    kinematic(&Subject {
-        mechanism: m,
-        state: StateId::FREE,
-        analysis: None,
-        marks: None,
-    })
+    kinematic(&subject(m))
 }
 
 fn read(text: &str) -> Mechanism {

@@ -29,10 +29,6 @@ const SIDES: [Side; 3] = [
     },
 ];
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
 impl Side {
     fn flat(&self, v: [f64; 3]) -> Point {
         [dot(self.right, v), -dot(self.up, v)]

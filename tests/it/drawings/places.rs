@@ -2,22 +2,15 @@
 //! different places does not overlap.
 
 use super::reading::{covers, moved};
+use super::subject;
 use crate::common::*;
 use ozols::draw::{Drawing, Sight, Subject, kinematic, kinematic_seen};
 
 pub(super) type Point = [f64; 2];
 
-fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
 fn far(a: Point, b: Point) -> f64 {
     let d = sub(a, b);
     d[0].hypot(d[1])
-}
-
-fn cross(a: Point, b: Point) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 /// What a kinematic scheme shows, read back from its SVG.
@@ -215,7 +208,7 @@ fn links_join_the_places_of_their_joints() {
                 .flat_map(|&a| places.iter().map(move |&b| (a, b)))
                 .max_by(|p, q| far(p.0, p.1).total_cmp(&far(q.0, q.1)))
                 .unwrap();
-            let off = |p: Point| cross(sub(b, a), sub(p, a)) / far(a, b).max(1e-9);
+            let off = |p: Point| cross_plane(sub(b, a), sub(p, a)) / far(a, b).max(1e-9);
             let offs: Vec<f64> = places.iter().map(|&p| off(p)).collect();
             let wide = offs.iter().fold(0.0f64, |m, x| m.max(*x))
                 - offs.iter().fold(0.0f64, |m, x| m.min(*x));
@@ -250,7 +243,7 @@ fn overlap(a: &[Point], b: &[Point]) -> bool {
             if length < 1e-6 {
                 return false;
             }
-            let off = |x: &Point| cross(sub(q, p), sub(*x, p)) / length;
+            let off = |x: &Point| cross_plane(sub(q, p), sub(*x, p)) / length;
             let span = |of: &[Point]| {
                 let all = of.iter().map(off);
                 all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| {
@@ -299,7 +292,7 @@ fn no_bar_lies_on_another() {
         for (n, &(one, a, b)) in bars.iter().enumerate() {
             for &(other, c, d) in &bars[..n] {
                 let length = far(a, b);
-                let off = |p: Point| (cross(sub(b, a), sub(p, a)) / length).abs();
+                let off = |p: Point| (cross_plane(sub(b, a), sub(p, a)) / length).abs();
                 let at =
                     |p: Point| (sub(b, a)[0] * sub(p, a)[0] + sub(b, a)[1] * sub(p, a)[1]) / length;
                 let shared = at(c).max(at(d)).min(length) - at(c).min(at(d)).max(0.0);
@@ -333,12 +326,7 @@ fn the_frame_is_drawn_once_at_each_of_its_places() {
 #[test]
 fn a_side_can_be_asked_for() {
     let m = built_in("bennett");
-    let subject = Subject {
-        mechanism: &m,
-        state: StateId::FREE,
-        analysis: None,
-        marks: None,
-    };
+    let subject = subject(&m);
     let seen = |toward: [f64; 3], up: Option<[f64; 3]>| {
         let sight = Sight {
             toward: Some(toward),

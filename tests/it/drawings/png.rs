@@ -1,18 +1,10 @@
 //! Drawings as PNG. Most of it needs the feature `png`: `cargo test --features png --test integration png`.
 
 use crate::common::*;
-fn refused(args: &[&str], what: &str) {
-    let done = run(args);
-    let said = String::from_utf8_lossy(&done.stderr).into_owned();
-    assert_eq!(done.status.code(), Some(2), "{args:?}: {said}");
-    assert!(said.contains(what), "{args:?}: {said}");
-    assert!(done.stdout.is_empty());
-}
-
 #[test]
 fn sizes_are_for_png() {
-    refused(&["draw", "bennett", "--scale", "2"], "--scale and --width");
-    refused(&["draw", "bennett", "--width", "90"], "--scale and --width");
+    fails(&["draw", "bennett", "--scale", "2"], "--scale and --width");
+    fails(&["draw", "bennett", "--width", "90"], "--scale and --width");
 }
 
 #[cfg(not(feature = "png"))]
@@ -21,34 +13,24 @@ fn a_build_without_png_says_so() {
     let dir = tempdir().unwrap();
     let path = dir.path().join("x.PNG");
     let path = path.to_str().unwrap();
-    refused(&["draw", "bennett", "--png"], "--features png");
+    fails(&["draw", "bennett", "--png"], "--features png");
     // the name asks for it
-    refused(&["draw", "bennett", "-o", path], "--features png");
-    refused(&["explain", "spherical", "-o", path], "--features png");
+    fails(&["draw", "bennett", "-o", path], "--features png");
+    fails(&["explain", "spherical", "-o", path], "--features png");
     assert_eq!(dir.path().read_dir().unwrap().count(), 0);
 }
 
 #[cfg(feature = "png")]
 mod with_png {
-    use super::refused;
-    use built_in;
+    use crate::common::*;
+    use crate::drawings::subject;
     use ozols::draw::png::png;
     use ozols::draw::{Drawing, Rect, Sight, Size, Subject, kinematic, kinematic_seen, scheme};
-    use ozols::file::text::mechanism_from_str;
-    use ozols::model::joint_type::JointType;
-    use ozols::model::mechanism::{Mechanism, StateId};
-    use ozols::redundancy::analysis::{Method, analyse};
     use resvg::tiny_skia::{self, Pixmap};
 
     fn drawings(name: &str) -> [Drawing; 2] {
-        let text = ozols::builtin::text(name).unwrap();
-        let m = mechanism_from_str(name, text).unwrap();
-        let subject = Subject {
-            mechanism: &m,
-            state: StateId::FREE,
-            analysis: None,
-            marks: None,
-        };
+        let m = built_in(name);
+        let subject = subject(&m);
         [scheme(&subject), kinematic(&subject)]
     }
 
@@ -86,11 +68,8 @@ mod with_png {
         } else {
             ""
         };
-        let text = format!(
-            "name = \"one\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n[[link]]\nid = \"1\"\nrole = \"output\"\n[[joint]]\nid = \"0-1\"\n\
-             links = [\"0\", \"1\"]\ntype = \"{joint_type}\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\n{pitch}\n"
-        );
-        mechanism_from_str("one.toml", &text).unwrap()
+        let joint = format!("0-1 | 0 1 | {joint_type} | 0, 0, 0 | 0, 0, 1 | {pitch}");
+        mechanism_from_str("one.toml", &file_of("name = \"one\"", "0 1*", &joint)).unwrap()
     }
 
     /// The symbol of a drawing's only joint in so many pixels, in black and white.
@@ -130,12 +109,7 @@ mod with_png {
                 .iter()
                 .map(|t| {
                     let m = single(t.name());
-                    let subject = Subject {
-                        mechanism: &m,
-                        state: StateId::FREE,
-                        analysis: None,
-                        marks: None,
-                    };
+                    let subject = subject(&m);
                     symbol(&kinematic_seen(&subject, &sight), 24)
                 })
                 .collect();
@@ -181,16 +155,9 @@ joint = [
 
     #[test]
     fn every_contour_is_seen_in_its_tint() {
-        let read = |name: &str| built_in(name);
         let wishbone = mechanism_from_str("wishbone.toml", WISHBONE).unwrap();
-        let built_in = [
-            "door-two-hinges",
-            "twin-rail-slide",
-            "shaft-two-bearings",
-            "gripper-10",
-            "bennett",
-        ];
-        for m in built_in.map(read).into_iter().chain([wishbone]) {
+        let names = words("door-two-hinges twin-rail-slide shaft-two-bearings gripper-10 bennett");
+        for m in names.into_iter().map(built_in).chain([wishbone]) {
             let found = analyse(&m, &[StateId::FREE], Method::Modular).unwrap();
             let mut d = scheme(&Subject {
                 mechanism: &m,
@@ -263,8 +230,8 @@ joint = [
         assert_eq!(picture.width(), 321);
         let piped = run(&["draw", "four-bar", "--png", "--width", "321"]);
         assert_eq!(piped.stdout, file);
-        refused(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
-        refused(&["draw", "four-bar", "--png", "--width", "0"], "--width");
-        refused("draw four-bar --png --width 99999", "too large");
+        fails(&["draw", "four-bar", "--png", "--scale", "0"], "--scale");
+        fails(&["draw", "four-bar", "--png", "--width", "0"], "--width");
+        fails("draw four-bar --png --width 99999", "too large");
     }
 }

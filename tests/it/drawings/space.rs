@@ -8,14 +8,6 @@ fn vector(v: &Value) -> Vector {
     [0, 1, 2].map(|i| v[i].real())
 }
 
-fn dot(a: Vector, b: Vector) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
-}
-
 /// A point carried by six numbers, a rotation vector and where the origin goes (Rodrigues), or by none.
 fn carried(by: &Value, p: Vector) -> Vector {
     let n: Vec<f64> = by.list().iter().map(|x| x.real()).collect();

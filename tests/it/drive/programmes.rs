@@ -3,6 +3,8 @@
 use crate::common::*;
 mod repeated;
 
+use repeated::Bench;
+
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::{Disc, End, Feed, Latch};
 use ozols::model::drive::ProgrammeStep;
@@ -29,33 +31,32 @@ fn module(viscous: f64, coulomb: f64, feed: f64) -> Module {
     drive([0.23, 0.11], viscous, coulomb, 0.02, feed)
 }
 
+fn steps(discs: &[usize]) -> Vec<ProgrammeStep> {
+    discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect()
+}
+
 /// [Klyuchkovskyi 1999]: discs that take turns both step on the same way by 2φ0; one disc goes to and fro.
 #[test]
 fn taking_turns_steps_on_and_one_disc_reverses() {
     let m = module(0.0, 0.0, 0.0);
-    let turns: Vec<ProgrammeStep> = (0..6).map(|i| ProgrammeStep::Swing((i + 1) % 2)).collect();
+    let turns = steps(&[1, 0, 1, 0, 1, 0]);
     let run = m.run(&turns).unwrap();
     assert!(run.complete());
     near(run.angles[0], 0.8 + 3.0 * 1.6, 1e-9);
     near(run.angles[1], 3.0 * 1.6, 1e-9);
-    let run = m
-        .run(&[
-            ProgrammeStep::Swing(1),
-            ProgrammeStep::Dwell(0.3),
-            ProgrammeStep::Swing(1),
-            ProgrammeStep::Swing(1),
-        ])
-        .unwrap();
+    let waited = [
+        &steps(&[1])[..],
+        &[ProgrammeStep::Dwell(0.3)],
+        &steps(&[1, 1]),
+    ]
+    .concat();
+    let run = m.run(&waited).unwrap();
     near(run.angles[0], 0.8, 0.0);
     near(run.angles[1], 1.6, 1e-9);
     assert_eq!(run.steps[2].start, run.steps[0].duration + 0.3);
     // Unequal discs keep the bar's energy and their own times.
-    let times: Vec<f64> = m
-        .run(&turns)
-        .unwrap()
-        .swings()
-        .map(|(_, s)| s.duration)
-        .collect();
+    let run = m.run(&turns).unwrap();
+    let times = run.swings().map(|(_, s)| s.duration).collect_vec();
     near(times[1] / times[0], (0.23f64 / 0.11).sqrt(), 1e-7);
 }
 
@@ -63,15 +64,13 @@ fn taking_turns_steps_on_and_one_disc_reverses() {
 #[test]
 fn energy_of_a_run_is_conserved() {
     let m = module(0.0, 0.0, 0.0);
-    let run = m
-        .run(&[
-            ProgrammeStep::Swing(1),
-            ProgrammeStep::Swing(0),
-            ProgrammeStep::Dwell(1.0),
-            ProgrammeStep::Swing(0),
-            ProgrammeStep::Swing(1),
-        ])
-        .unwrap();
+    let waited = [
+        &steps(&[1, 0])[..],
+        &[ProgrammeStep::Dwell(1.0)],
+        &steps(&[0, 1]),
+    ]
+    .concat();
+    let run = m.run(&waited).unwrap();
     for s in m.samples(&run, 50) {
         near((s.potential + s.kinetic) / (14.0 * 0.32), 1.0, 1e-9);
     }
@@ -81,14 +80,7 @@ fn energy_of_a_run_is_conserved() {
 #[test]
 fn energy_of_a_run_balances() {
     let m = module(0.02, 0.1, 0.37);
-    let run = m
-        .run(&[
-            ProgrammeStep::Swing(1),
-            ProgrammeStep::Swing(0),
-            ProgrammeStep::Swing(1),
-            ProgrammeStep::Swing(1),
-        ])
-        .unwrap();
+    let run = m.run(&steps(&[1, 0, 1, 1])).unwrap();
     assert!(run.complete());
     let mut had = 14.0 * 0.32;
     for (_, s) in run.swings() {
@@ -114,7 +106,7 @@ fn the_long_run_tells_enough_from_too_little() {
         },
         ..m
     };
-    let one = [ProgrammeStep::Swing(0)];
+    let one = steps(&[0]);
     assert!(
         matches!(fed(1.001 * need).endurance(&one).unwrap(), Endurance::Lasts { missing } if missing == 0.0)
     );
@@ -122,12 +114,7 @@ fn the_long_run_tells_enough_from_too_little() {
         panic!()
     };
     // A run of as many swings is latched, and one more is not.
-    let latched = |n: usize| {
-        fed(0.97 * need)
-            .run(&vec![ProgrammeStep::Swing(0); n])
-            .unwrap()
-            .latched
-    };
+    let latched = |n: usize| fed(0.97 * need).run(&steps(&vec![0; n])).unwrap().latched;
     assert_eq!((latched(after), latched(after + 1)), (after, after));
     // Viscous damping alone takes less from a smaller swing: with much capture, swings settle short of the latch.
     let soft = Module {
@@ -149,7 +136,7 @@ fn the_long_run_tells_enough_from_too_little() {
         ..m
     };
     assert!(matches!(
-        both.endurance(&[0, 1].map(ProgrammeStep::Swing)).unwrap(),
+        both.endurance(&steps(&[0, 1])).unwrap(),
         Endurance::Lasts { .. }
     ));
 }
@@ -157,13 +144,7 @@ fn the_long_run_tells_enough_from_too_little() {
 #[test]
 fn a_missed_latch_ends_the_run() {
     let m = module(0.05, 0.1, 0.0);
-    let run = m
-        .run(&[
-            ProgrammeStep::Swing(1),
-            ProgrammeStep::Swing(0),
-            ProgrammeStep::Swing(1),
-        ])
-        .unwrap();
+    let run = m.run(&steps(&[1, 0, 1])).unwrap();
     assert!(!run.complete() && run.steps.len() < 3 + 1);
     assert!(matches!(
         run.swings().last().unwrap().1.end,
@@ -176,7 +157,7 @@ fn a_missed_latch_ends_the_run() {
 #[test]
 fn samples_move_as_their_rates_say() {
     let m = module(0.01, 0.1, 0.4);
-    let run = m.run(&[0, 1, 0, 0, 1].map(ProgrammeStep::Swing)).unwrap();
+    let run = m.run(&steps(&[0, 1, 0, 0, 1])).unwrap();
     assert!(run.complete());
     const PER_SWING: u32 = 500;
     let samples = m.samples(&run, PER_SWING);
@@ -261,42 +242,13 @@ fn payloads_are_flung_outwards_in_great_swings() {
     }
 }
 
-/// The same run by a plain integrator in absolute angles, grooves and cam fixed on each disc: where each swing ends.
+/// The same run by a plain integrator, grooves and cam fixed on each disc: where each swing ends.
 fn by_steps(m: &Module, turns: &[usize]) -> Vec<f64> {
-    let (phi, push) = (m.latch.at, m.feed.energy / (m.latch.at - m.feed.from));
-    let (mut at, mut groove, mut out) = ([phi, 0.0], [phi, 0.0f64], Vec::new());
+    let (mut bench, mut out) = (Bench::new(m), Vec::new());
     for &d in turns {
-        let (disc, o) = (&m.discs[d], 1 - d);
-        let way = (groove[o] - groove[d]).signum();
-        let (pushed_from, target) = (
-            groove[d] + way * (phi + m.feed.from),
-            groove[d] + way * 2.0 * phi,
-        );
-        let moment = |x: f64, v: f64| {
-            let cam = if way * (x - pushed_from) >= 0.0 {
-                push
-            } else {
-                0.0
-            };
-            way * (cam - disc.coulomb) - disc.stiffness * (x - at[o]) - disc.viscous * v
-        };
-        let (mut x, mut v, h) = (at[d], 0.0, 2e-6);
-        loop {
-            // The middle of a step carries it: an error of second order.
-            let half = v + h / 2.0 * moment(x, v) / disc.inertia;
-            let speed = v + h * moment(x + h / 2.0 * v, half) / disc.inertia;
-            if way * speed <= 0.0 {
-                break;
-            }
-            (x, v) = (x + h * half, speed);
-            if way * (x - target) >= 0.0 {
-                x = target;
-                break;
-            }
-        }
-        (at[d], groove[d]) = (x, target);
-        out.push(x);
-        if way * (target - x) > m.latch.capture {
+        let short = bench.swing(d);
+        out.push(bench.at[d]);
+        if short > m.latch.capture {
             break;
         }
     }
@@ -306,15 +258,11 @@ fn by_steps(m: &Module, turns: &[usize]) -> Vec<f64> {
 /// Grooves are on the discs: what one swing falls short, the next begins with. The built-in module with too weak a cam.
 #[test]
 fn shortfalls_add_up_against_grooves_that_stay() {
-    let text = ozols::builtin::text("torsion-module").unwrap();
-    let file =
-        ozols::file::read::workload::drive_from_bytes("torsion-module.toml", text.as_bytes())
-            .unwrap();
-    let built_in = ozols::drive::driving::drive(&file.spec)
-        .unwrap()
-        .design
-        .unwrap()
-        .module;
+    let text = builtin::text("torsion-module").unwrap();
+    let name = "torsion-module.toml";
+    let file = ozols::file::read::workload::drive_from_bytes(name, text.as_bytes()).unwrap();
+    let design = ozols::drive::driving::drive(&file.spec).unwrap().design;
+    let built_in = design.unwrap().module;
     let reversing = vec![1; 40];
     let stepwise: Vec<usize> = (0..40).map(|i| (i + 1) % 2).collect();
     for (feed, turns, most) in [
@@ -329,8 +277,7 @@ fn shortfalls_add_up_against_grooves_that_stay() {
             },
             ..built_in
         };
-        let steps: Vec<ProgrammeStep> = turns.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
-        let run = m.run(&steps).unwrap();
+        let run = m.run(&steps(turns)).unwrap();
         let slow = by_steps(&m, turns);
         assert_eq!(run.steps.len(), most, "feed {feed}");
         assert_eq!(slow.len(), most, "feed {feed}");
@@ -368,7 +315,7 @@ fn the_push_stays_with_the_grooves_of_the_disc_that_swings() {
             ..weak
         };
         let turns = [1, 0, 1, 0];
-        let run = m.run(&turns.map(ProgrammeStep::Swing)).unwrap();
+        let run = m.run(&steps(&turns)).unwrap();
         let slow = by_steps(&m, &turns);
         assert_eq!((run.steps.len(), slow.len()), (4, 4));
         for (n, (step, slow)) in run.steps.iter().skip(1).zip(&slow).enumerate() {

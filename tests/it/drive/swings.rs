@@ -75,57 +75,28 @@ fn discs_that_do_not_swing_are_named() {
         at: 0.7,
         capture: 0.01,
     };
-    let disc = Disc {
-        inertia: 0.05,
-        stiffness: 200.0,
-        viscous: 0.0,
-        coulomb: 0.0,
+    let with = |change: &dyn Fn(&mut Disc)| {
+        let mut disc = Disc {
+            inertia: 0.05,
+            stiffness: 200.0,
+            viscous: 0.0,
+            coulomb: 0.0,
+        };
+        change(&mut disc);
+        disc
     };
-    let stuck = Disc {
-        coulomb: 150.0,
-        ..disc
-    };
-    assert_eq!(stuck.swing(0.7, latch, Feed::NONE).unwrap().end, End::Stuck);
-    assert_eq!(stuck.needed_feed(latch, 0.0).unwrap(), None);
-    let thick = Disc {
-        viscous: 10.0,
-        ..disc
-    };
-    assert!(
-        matches!(thick.swing(0.7, latch, Feed::NONE), Err(SwingError::Overdamped(z)) if z > 1.0)
-    );
+    let swung = |change: &dyn Fn(&mut Disc)| with(change).swing(0.7, latch, Feed::NONE);
+    assert_eq!(swung(&|d| d.coulomb = 150.0).unwrap().end, End::Stuck);
+    let needed = with(&|d| d.coulomb = 150.0).needed_feed(latch, 0.0);
+    assert_eq!(needed.unwrap(), None);
+    let thick = swung(&|d| d.viscous = 10.0);
+    assert!(matches!(thick, Err(SwingError::Overdamped(z)) if z > 1.0));
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(
-            Disc {
-                inertia: bad,
-                ..disc
-            }
-            .swing(0.7, latch, Feed::NONE)
-            .is_err()
-        );
-        assert!(
-            Disc {
-                stiffness: bad,
-                ..disc
-            }
-            .swing(0.7, latch, Feed::NONE)
-            .is_err()
-        );
+        assert!(swung(&|d| d.inertia = bad).is_err());
+        assert!(swung(&|d| d.stiffness = bad).is_err());
     }
-    assert!(
-        Disc {
-            viscous: f64::NAN,
-            ..disc
-        }
-        .swing(0.7, latch, Feed::NONE)
-        .is_err()
-    );
-    let missed = Disc {
-        coulomb: 10.0,
-        ..disc
-    }
-    .swing(0.7, latch, Feed::NONE)
-    .unwrap();
+    assert!(swung(&|d| d.viscous = f64::NAN).is_err());
+    let missed = swung(&|d| d.coulomb = 10.0).unwrap();
     assert!(matches!(missed.end, End::Missed { .. }));
 }
 

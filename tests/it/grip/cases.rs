@@ -3,7 +3,6 @@
 use super::{SMALL, lever};
 use crate::common::*;
 use ozols::file::read::workload::grip_from_bytes;
-use ozols::geom::vector::unit;
 use ozols::grip::arm_curves::{Varied, arm_curve};
 use ozols::grip::clamping::{DiameterRow, HoldVerdict, study};
 use ozols::grip::contact::{Gripper, Unholdable};

@@ -27,10 +27,6 @@ fn clamped(m: &Mechanism) -> Gripping {
     Gripping::new(m, StateId::new(1)).unwrap().unwrap()
 }
 
-fn real(v: &[Expr; 3]) -> [f64; 3] {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
-}
-
 fn number(v: &Value) -> f64 {
     v.as_f64().unwrap_or_else(|| panic!("{v}"))
 }

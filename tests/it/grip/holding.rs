@@ -1,6 +1,7 @@
 //! Holding forces against closed forms, a polyhedral linear programme and plain statics.
 
 use crate::common::*;
+use ozols::geom::vector::cross as cross3;
 mod polyhedral;
 
 use ozols::geom::vector::cross_plane as cross;
@@ -46,14 +47,6 @@ fn force(pose: &TouchingPose, i: usize, f: &ContactForce) -> Spatial {
         f.normal * c.normal[0] + f.along * c.tangent[0],
         f.normal * c.normal[1] + f.along * c.tangent[1],
         f.axial,
-    ]
-}
-
-fn cross3(a: Spatial, b: Spatial) -> Spatial {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
     ]
 }
 

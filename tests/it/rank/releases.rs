@@ -1,7 +1,6 @@
 //! Releases of what is held twice: by virtual work, and by hand.
 
 use crate::common::*;
-use ozols::geom::vector::{cross, unit};
 use ozols::model::mechanism::Frame;
 use ozols::redundancy::figures;
 use ozols::redundancy::release::{Release, added};

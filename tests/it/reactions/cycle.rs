@@ -1,5 +1,6 @@
 //! Reactions over a stroke with inertia forces: in the plane and in space, and against differences of energy.
 
+use super::expr;
 use crate::common::*;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
 use ozols::motion::pose::Pose;
@@ -8,14 +9,6 @@ use ozols::statics::reactions::cycle::{Cycle, cycle};
 use ozols::statics::reactions::follow::follow_to;
 use ozols::statics::reactions::geometry::{cross, dot};
 use ozols::statics::reactions::{JointReaction, Uniqueness, Unsolved};
-
-fn expr(x: f64) -> Expr {
-    format!("{x:.9}").parse().unwrap()
-}
-
-fn real(v: &[Expr; 3]) -> [f64; 3] {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
-}
 
 /// A built-in mechanism with masses beside its joints, gravity, and a drive at a speed.
 fn moving(name: &str, speed: f64, inertia: impl Fn(f64) -> Inertia) -> Mechanism {
@@ -197,13 +190,8 @@ fn inertia_is_quadratic_in_the_speed() {
     let at = |speed: f64| {
         let mut m = moving("rsur", speed, |x| Inertia::Principal([x, 2.0 * x, 1.5 * x]));
         m.loads.gravity = None;
-        effort(
-            &cycle(&m, StateId::FREE, None).unwrap().positions[0]
-                .1
-                .as_ref()
-                .unwrap()
-                .reactions,
-        )
+        let found = cycle(&m, StateId::FREE, None).unwrap();
+        effort(&solved(&found)[0].1.reactions)
     };
     let (one, two) = (at(1.0), at(-2.0));
     assert!(one.abs() > 1e-6);

@@ -97,7 +97,6 @@ fn a_shifted_joint_strains_as_by_hand() {
 /// A misalignment is a turn or a shift: neither and both are refused, and a shift is written as it was read.
 #[test]
 fn a_misalignment_is_an_angle_or_a_length() {
-    use run_on;
     let text = builtin::text("gripper-10-loaded").unwrap();
     let with = |what: &str| {
         format!("{text}\n[[workload.misalignment]]\njoint = \"2-3\"\naxis = \"y\"\n{what}\n")

@@ -8,16 +8,18 @@ use ozols::statics::reactions::geometry::Geometry;
 /// 20 before the first goes at minus the sum of speed times distance.
 #[test]
 fn a_link_is_carried_by_all_before_it() {
-    let mut text =
-        "name = \"arm\"\nlength_unit = \"m\"\n[[link]]\nid = \"0\"\nrole = \"frame\"\n".to_owned();
-    for n in 1..4 {
-        let (role, before) = (if n == 3 { "role = \"output\"\n" } else { "" }, n - 1);
-        text += &format!(
-            "[[link]]\nid = \"{n}\"\n{role}[[joint]]\nid = \"j{n}\"\nlinks = [\"{before}\", \"{n}\"]\ntype = \"revolute\"\n\
-             point = [{}, 0, 0]\naxis = [0, 0, 1]\n",
+    let joint = |n: u32| {
+        format!(
+            "j{n} | {} {n} | revolute | {}, 0, 0 | 0, 0, 1",
+            n - 1,
             10 * n
-        );
-    }
+        )
+    };
+    let text = file_of(
+        "name = \"arm\"\nlength_unit = \"m\"",
+        "0 1 2 3*",
+        &(1..4).map(joint).join("\n"),
+    );
     let m = mechanism_from_str("arm.toml", &text).unwrap();
     let pose = Pose::of_file(&m, StateId::FREE).unwrap();
     let geometry = Geometry::new(&m, StateId::FREE, &pose).unwrap();

@@ -3,7 +3,6 @@
 use crate::common::*;
 pub(crate) mod make;
 mod ondsel;
-mod others;
 mod retyped;
 mod told;
 mod wrong;

@@ -14,18 +14,6 @@ use std::fmt::Write;
 
 type V = [f64; 3];
 
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn sum(a: V, by: f64, b: V) -> V {
-    [0, 1, 2].map(|i| a[i] + by * b[i])
-}
-
 #[derive(Debug, Clone, Copy)]
 enum Joint {
     Ball(V),
@@ -44,7 +32,7 @@ impl Joint {
                 .to_vec(),
             Joint::Slide(_, a) => vec![one([0.0; 3], a)],
             Joint::Turn(p, a) => vec![one(a, cross(p, a))],
-            Joint::Screw(p, a, h) => vec![one(a, sum(cross(p, a), h, a))],
+            Joint::Screw(p, a, h) => vec![one(a, add_scaled(cross(p, a), h, a))],
         }
     }
 
@@ -150,7 +138,7 @@ fn gantry(width: i32, off: i32, rise: i32) -> Known {
         [f64::from(width), f64::from(off), f64::from(rise)],
     ];
     let at = |t: f64| {
-        ball.map(|p| [Joint::Slide(p, a), Joint::Ball(sum(p, t, a))])
+        ball.map(|p| [Joint::Slide(p, a), Joint::Ball(add_scaled(p, t, a))])
             .to_vec()
     };
     Known {
@@ -169,7 +157,7 @@ fn plate(feet: &[(i32, i32)], screws: bool) -> Known {
             } else {
                 Joint::Slide(p, a)
             };
-            [guide, Joint::Ball(sum(p, t, a))]
+            [guide, Joint::Ball(add_scaled(p, t, a))]
         };
         feet.iter().map(leg).collect()
     };
@@ -192,7 +180,7 @@ fn wren(feet: &[[i32; 3]], leg: [i32; 3]) -> Known {
         let l = turned(t);
         let leg = |p: &[i32; 3]| {
             let p = p.map(f64::from);
-            [Joint::Ball(p), Joint::Ball(sum(p, 1.0, l))]
+            [Joint::Ball(p), Joint::Ball(add_scaled(p, 1.0, l))]
         };
         feet.iter().map(leg).collect()
     };

@@ -374,7 +374,6 @@ fn loops_that_rounding_leaves_open() {
 /// A universal joint of Drake turns about x of its first link and then about y: after a quarter turn about x that is z.
 #[test]
 fn a_second_axis_is_carried_by_the_first() {
-    use ozols::geom::vector::{cross, real};
     let urdf = "<robot name='r' xmlns:drake='http://drake.mit.edu'><link name='a'/><link name='b'/>
       <drake:joint name='j' type='universal'><parent link='a'/><child link='b'/></drake:joint></robot>";
     for (first, wanted) in [

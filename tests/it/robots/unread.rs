@@ -2,8 +2,8 @@
 
 use crate::common::*;
 use crate::robots::mjcf::mjcf;
+use crate::robots::none;
 use ozols::robots::{Options, import};
-use std::io::{Error, Result};
 
 /// The exit code of `lint`, what it found in a file, and its text.
 fn linted(name: &str, text: &str, more: &[&str]) -> (Option<i32>, Value, String) {
@@ -100,10 +100,6 @@ fn each_way_to_close_a_loop_is_read() {
             assert_eq!(i.report.left_out(), 0, "{name}: {:?}", i.report);
         }
     }
-}
-
-fn none(_: &str) -> Result<Vec<u8>> {
-    Err(Error::other("there is no such file"))
 }
 
 // What couples two of three hinges leaves two motions, whoever says it; said twice, it is one coupling.

@@ -5,7 +5,6 @@ use crate::common::*;
 use ozols::search::answer::k_best::Assignment;
 use ozols::search::build::Diagrams;
 use proptest::prelude::*;
-use std::fmt::Write;
 
 /// A ladder of contours: a four-bar, and three joints more for each further one, hinges along z in a plane at places drawn
 /// from a seed; along any direction where it is `spatial`.
@@ -24,33 +23,23 @@ pub(crate) fn ladder(contours: usize, seed: u64, spatial: bool) -> String {
         (left, right, next) = (next, next + 1, next + 2);
     }
     let options = "[\"revolute\", \"cylindrical\", \"universal\", \"spherical\"]";
-    let mut out = format!("name = \"ladder\"\n[search]\noptions = {options}\n");
-    for i in 0..next {
-        let role = match i {
-            0 => "role = \"frame\"",
-            1 => "role = \"output\"",
-            _ => "",
-        };
-        write!(out, "[[link]]\nid = \"{i}\"\n{role}\n").unwrap();
-    }
-    for (i, (a, b)) in joints.iter().enumerate() {
+    let head = format!("name = \"ladder\"\n[search]\noptions = {options}");
+    let links = (0..next).map(|i| format!("{i}{}", if i == 1 { "*" } else { "" }));
+    let line = |(i, (a, b)): (usize, (usize, usize))| {
         let (x, y, z) = (
             number(997),
             number(997),
             if spatial { number(997) } else { 0 },
         );
-        let axis = if spatial {
+        let [u, v, w] = if spatial {
             [number(19) + 1, number(19), number(19)]
         } else {
             [0, 0, 1]
         };
-        write!(
-            out,
-            "[[joint]]\nid = \"j{i}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, {z}]\naxis = {axis:?}\n"
-        )
-        .unwrap();
-    }
-    out
+        format!("j{i} | {a} {b} | revolute | {x}, {y}, {z} | {u}, {v}, {w}")
+    };
+    let joints = joints.into_iter().enumerate().map(line).join("\n");
+    file_of(&head, &links.collect_vec().join(" "), &joints)
 }
 
 pub(crate) fn search(text: &str, conditions: Conditions) -> (Search, Diagrams) {
@@ -168,13 +157,12 @@ fn estimates_are_near_the_count_and_right_on_average() {
 #[test]
 fn every_output_says_what_is_proven_and_what_is_estimated() {
     let file = ladder(6, 1, false);
-    let told = |more: &[&str]| {
-        let args = [&["search", "-", "--nodes", "500", "--top", "3"], more].concat();
-        let o = ozols(&args).write_stdin(file.clone()).output().unwrap();
-        assert_eq!(o.status.code(), Some(0), "{}", text(&o.stderr));
-        text(&o.stdout)
+    let told = |more: &str| {
+        let (code, told, said) = fed(&format!("search - --nodes 500 --top 3 {more}"), &file);
+        assert_eq!(code, Some(0), "{said}");
+        told
     };
-    let said = told(&[]);
+    let said = told("");
     has_all(
         &said,
         &[
@@ -184,7 +172,7 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
             "Proven the cheapest: all 3",
         ],
     );
-    let v: Value = serde_json::from_str(&told(&["--format", "json"])).unwrap();
+    let v: Value = serde_json::from_str(&told("--format json")).unwrap();
     assert_eq!(
         (&v["exact"], &v["variants_proven"]),
         (&false.into(), &3.into())
@@ -204,14 +192,11 @@ fn every_output_says_what_is_proven_and_what_is_estimated() {
         ozols_grouped(n)
     });
     has(&said, &format!(": {least} to {most}, about "));
-    assert!(told(&["--format", "csv", "--comment"]).contains("the first 3 proven the cheapest"));
-    let last = told(&["--format", "jsonl"])
-        .lines()
-        .last()
-        .unwrap()
-        .to_owned();
-    assert_eq!(serde_json::from_str::<Value>(&last).unwrap()["proven"], 3);
-    let said = told(&["--no-count"]);
+    assert!(told("--format csv --comment").contains("the first 3 proven the cheapest"));
+    let lines = told("--format jsonl");
+    let last: Value = serde_json::from_str(lines.lines().last().unwrap()).unwrap();
+    assert_eq!(last["proven"], 3);
+    let said = told("--no-count");
     has_all(
         &said,
         &[
@@ -282,25 +267,12 @@ fn most_variants_of_six_contours_in_space_are_counted_or_bounded() {
 /// Whatever the budget, no row says that more variants are admissible than have no redundant constraints.
 #[test]
 fn bounds_do_not_contradict_each_other() {
-    let folder = tempdir().unwrap();
-    let path = folder.path().join("ladder.toml");
     let mut cut = 0;
     for (seed, spatial) in [(1, false), (2, false), (3, true), (4, true)] {
-        fs::write(&path, ladder(3, seed, spatial)).unwrap();
+        let ladder = ladder(3, seed, spatial);
         for nodes in [1, 3, 10, 30, 60, 100, 200, 400, 800, 1600, 3200] {
-            let nodes = nodes.to_string();
-            let args = [
-                "search",
-                path.to_str().unwrap(),
-                "--count",
-                "--check",
-                "none",
-                "--format",
-                "json",
-                "--nodes",
-                &nodes,
-            ];
-            let found: Value = serde_json::from_slice(&run(&args).stdout).unwrap();
+            let line = format!("search - --count --check none --format json --nodes {nodes}");
+            let found: Value = serde_json::from_str(&fed(&line, &ladder).1).unwrap();
             let number = |v: &Value| v.word().parse::<u64>().unwrap();
             cut += usize::from(found["determinate_exact"] == false);
             let [all, some] = ["determinate", "admissible"].map(|k| number(&found[k]));

@@ -114,10 +114,9 @@ fn singular_values_agree_on_the_best_of_every_built_in_mechanism() {
 fn a_variant_that_two_methods_see_differently_is_marked() {
     let (_folder, path) = written("shaky.toml", shaky());
     let said = |more: &[&str]| {
-        let o = run(&[&["search", path][..], more].concat());
-        let warned = String::from_utf8(o.stderr).unwrap();
+        let (_, told, warned) = ran(&[&["search", path][..], more].concat());
         has(&warned, "nearly singular");
-        String::from_utf8(o.stdout).unwrap()
+        told
     };
     let v: Value = serde_json::from_str(&said(&["--format", "json", "--all"])).unwrap();
     assert_eq!(v["check"]["agree"], true, "the primes see the same");
@@ -173,15 +172,6 @@ fn a_long_list_says_where_the_checking_ends() {
     assert!(variants[999]["agree"] == true && variants[1000]["agree"].is_null());
 }
 
-/// Writes a mechanism and searches it: (exit code, standard output, standard error).
-fn search(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
-    let (_folder, path) = written("it.toml", text);
-    let args = [&["search", path], more].concat();
-    let o = run(&args);
-    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
-    (o.status.code(), text(o.stdout), text(o.stderr))
-}
-
 /// The four-bar turned by 30 degrees about x, in floating point.
 fn turned(axis: &str) -> String {
     let (c, s) = (3f64.sqrt() / 2.0, 0.5);
@@ -199,7 +189,9 @@ fn turned(axis: &str) -> String {
 #[test]
 fn measured_coordinates_that_do_no_harm_are_warned_about() {
     // One axis for all: parallel whatever its digits are.
-    let (code, stdout, stderr) = search(
+    let (code, stdout, stderr) = run_on(
+        "search",
+        "it.toml",
         &turned("axis = [0, -0.5, 0.8660254037844386]"),
         &["--format", "json"],
     );
@@ -220,7 +212,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
     let at = text.find("id = \"2-3\"").unwrap();
     let last = text[at..].replacen("0.8660254037844386", "0.8660254037844387", 1);
     text.replace_range(at.., &last);
-    let (code, stdout, stderr) = search(&text, &["--format", "json"]);
+    let (code, stdout, stderr) = run_on("search", "it.toml", &text, &["--format", "json"]);
     assert_eq!(code, Some(0), "{stderr}");
     has(&stderr, "snapped: 4 axes parallel");
     let v: Value = serde_json::from_str(&stdout).unwrap();
@@ -228,7 +220,12 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
     assert_eq!(v["measured"]["states"][0]["exact"]["redundant"], 2);
     assert_eq!(v["measured"]["states"][0]["svd"]["redundant"], 3);
     assert_eq!(v["variants"][0]["agree"], true);
-    let (code, stdout, stderr) = search(&text, &["--as-written", "--format", "json"]);
+    let (code, stdout, stderr) = run_on(
+        "search",
+        "it.toml",
+        &text,
+        &["--as-written", "--format", "json"],
+    );
     assert!(
         code == Some(0) && stderr.starts_with("warning: "),
         "{stderr}"
@@ -241,7 +238,7 @@ fn measured_coordinates_that_change_the_figures_are_searched_as_meant() {
     // Nine digits, measured to nine digits: the tolerance follows.
     let nine = text.replace("0.8660254037844386", "0.866025404");
     let nine = nine.replace("0.8660254037844387", "0.866025403");
-    let (code, _, stderr) = search(&nine, &["--as-written"]);
+    let (code, _, stderr) = run_on("search", "it.toml", &nine, &["--as-written"]);
     assert_eq!(code, Some(0));
     has(&stderr, "to within 2e-9 it is meant to have W = 1, σ = 3");
 }

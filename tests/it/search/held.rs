@@ -4,15 +4,6 @@ use crate::common::*;
 mod mirrored;
 mod relieved;
 
-/// A file that is gone with its folder.
-pub(crate) fn file(text: &str) -> (TempDir, String) {
-    let folder = tempdir().unwrap();
-    let path: PathBuf = folder.path().join("m.toml");
-    fs::write(&path, text).unwrap();
-    let path = path.to_str().unwrap().to_owned();
-    (folder, path)
-}
-
 /// The ten-link gripper that offers nothing but a ball pivot at each pad and four options of its hinges.
 pub(crate) fn pads() -> String {
     let text = builtin::text("gripper-10").unwrap();
@@ -28,31 +19,31 @@ pub(crate) fn pads() -> String {
 }
 
 /// Output, as data, of a search that may find nothing.
-pub(crate) fn searched(path: &str, more: &[&str]) -> Value {
-    let args = [&["search", path, "--format", "json", "-q"][..], more].concat();
-    let o = run(&args);
-    assert!(matches!(o.status.code(), Some(0 | 1)), "{args:?}: {o:?}");
-    serde_json::from_slice(&o.stdout).unwrap()
+pub(crate) fn searched<L: Line + ?Sized>(path: &str, more: &L) -> Value {
+    let args = [
+        &["search", path, "--format", "json", "-q"][..],
+        &more.words(),
+    ]
+    .concat();
+    let (code, told, said) = ran(&args);
+    assert!(matches!(code, Some(0 | 1)), "{args:?}: {said}");
+    serde_json::from_str(&told).unwrap()
 }
 
-fn said(path: &str, more: &[&str]) -> String {
-    let o = run(&[&["search", path, "-q"][..], more].concat());
-    String::from_utf8(o.stdout).unwrap()
+fn said(path: &str, more: &str) -> String {
+    ran(&format!("search {path} -q {more}")).1
 }
 
 /// Between two ball pivots the part turns about the line through their centres: no redundant constraint, and no grip.
 #[test]
 fn a_part_that_spins_between_two_pads_is_not_held() {
-    let (_folder, path) = file(&pads());
+    let (_folder, path) = written("m.toml", &pads());
     let zero = ["--max-external", "0", "--count"];
     assert_eq!(count(&searched(&path, &zero)["admissible"]), 0);
     let loose = [&zero[..], &["--allow-loose-object"]].concat();
     assert!(count(&searched(&path, &loose)["admissible"]) > 0);
     // Every one of them has both pads, and none with one pad is lost.
-    let list = searched(
-        &path,
-        &["--max-external", "0", "--allow-loose-object", "--top", "20"],
-    );
+    let list = searched(&path, "--max-external 0 --allow-loose-object --top 20");
     for v in list["variants"].list() {
         let changes = v["changes"].list();
         for pad in ["4-a", "a-8"] {
@@ -61,12 +52,7 @@ fn a_part_that_spins_between_two_pads_is_not_held() {
     }
     let one = ["--max-external", "2", "--forbid", "4-a", "--count"];
     let without = [&one[..], &["--allow-loose-object"]].concat();
-    assert_eq!(
-        searched(&path, &["--max-external", "2", "--count"])["admissible"]
-            .as_str()
-            .map(|n| n != "0"),
-        Some(true)
-    );
+    assert!(count(&searched(&path, "--max-external 2 --count")["admissible"]) > 0);
     assert!(
         count(&searched(&path, &without)["admissible"])
             > count(&searched(&path, &one)["admissible"])
@@ -76,16 +62,12 @@ fn a_part_that_spins_between_two_pads_is_not_held() {
 /// What the question asks for is in its first line.
 #[test]
 fn the_conditions_in_a_state_are_said() {
-    let text = said("gripper-10", &["--state", "clamped", "--count"]);
+    let text = said("gripper-10", "--state clamped --count");
     has(&text, "and hold a in state clamped");
     assert!(!text.contains("4294967295"), "{text}");
-    let text = said(
-        "gripper-10",
-        &["--state", "clamped", "--count", "--allow-loose-object"],
-    );
+    let text = said("gripper-10", "--state clamped --count --allow-loose-object");
     has(&text, "have any external σ in state clamped");
-    let limits = ["--max-external", "2", "--max-harmful", "0", "--top", "1"];
-    let text = said("gripper-10", &limits);
+    let text = said("gripper-10", "--max-external 2 --max-harmful 0 --top 1");
     has(
         &text,
         "hold a in state clamped and have external σ ≤ 2, harmful ≤ 0 in it",
@@ -99,7 +81,7 @@ fn the_conditions_in_a_state_are_said() {
 /// The part is no link of the free mechanism; with one pad it is held all the same.
 #[test]
 fn an_object_is_held_by_name() {
-    let (_folder, path) = file(&pads());
+    let (_folder, path) = written("m.toml", &pads());
     let count_of = |more: &[&str]| {
         let args = [&["--max-external", "2", "--count"][..], more].concat();
         count(&searched(&path, &args)["admissible"])
@@ -109,11 +91,9 @@ fn an_object_is_held_by_name() {
     assert_eq!(count_of(&["--hold", "a"]), held);
     assert_eq!(count_of(&["--hold", "a", "--allow-loose-object"]), held);
     assert!(count_of(&["--allow-loose-object"]) > held);
-    let o = run(&["search", &path, "--hold", "a"]);
-    let text = String::from_utf8(o.stderr).unwrap();
-    assert_eq!(o.status.code(), Some(2));
-    has(&text, "link a");
-    has(&text, "in state clamped alone; add --state clamped");
+    let hold = ["search", &path, "--hold", "a"];
+    fails(&hold, "link a");
+    fails(&hold, "in state clamped alone; add --state clamped");
 }
 
 /// [Pogrebnyak 2018]: of the five external constraints three are friction that both jaws supply and two demand parallel
@@ -133,12 +113,10 @@ fn harmful_constraints_are_counted() {
             })
             .unwrap()
     };
+    let own = of(None);
     assert_eq!(
-        (
-            of(None)["external_redundant"].as_i64(),
-            of(None)["external_harmful"].as_i64()
-        ),
-        (Some(5), Some(2))
+        [&own["external_redundant"], &own["external_harmful"]],
+        [5, 2]
     );
     for pad in ["4-a", "a-8"] {
         let v = of(Some(pad));
@@ -151,7 +129,7 @@ fn harmful_constraints_are_counted() {
     for v in found["variants"].list() {
         assert_eq!(v["external_harmful"], 0);
     }
-    let without = count(&searched("gripper-10", &["--state", "clamped", "--count"])["admissible"]);
+    let without = count(&searched("gripper-10", "--state clamped --count")["admissible"]);
     assert!(count(&found["admissible"]) < without);
     let text = out(&[&["search", "gripper-10"][..], &few].concat());
     has(&text, "harmful");
@@ -171,10 +149,10 @@ fn harmful_constraints_are_counted() {
 fn harm_has_a_price_and_a_term() {
     let question = ["--state", "clamped", "--top", "1"];
     let first = |path: &str| searched(path, &question)["variants"][0].clone();
-    let (_folder, path) = file(&pads());
+    let (_folder, path) = written("m.toml", &pads());
     assert_eq!(first(&path)["external_harmful"], 2);
     let priced = changed(&pads(), "[search]\n", "[search]\ncosts = { harmful = 3 }\n");
-    let (_priced, priced) = file(&priced);
+    let (_priced, priced) = written("m.toml", &priced);
     let v = first(&priced);
     assert_eq!(v["external_harmful"], 0, "{v}");
     // Two harmful ones at 3 each cost more than a pad at 4.
@@ -187,8 +165,6 @@ fn harm_has_a_price_and_a_term() {
     ];
     let v = searched("gripper-10-loaded", &[&question[..], &ranked].concat());
     assert_eq!(v["variants"][0]["scores"]["harmful"], 0, "{v}");
-    let o = run(&["search", "gripper-10-loaded", "--rank", "harmful"]);
-    assert_eq!(o.status.code(), Some(2));
-    let text = String::from_utf8(o.stderr).unwrap();
-    has(&text, "add --state, such as --state clamped");
+    let rank = "search gripper-10-loaded --rank harmful";
+    fails(rank, "add --state, such as --state clamped");
 }

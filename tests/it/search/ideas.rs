@@ -7,7 +7,6 @@ mod textbook;
 mod toggle;
 mod why;
 
-use ozols::geom::vector::{cross, unit};
 use ozols::model::mechanism::JointOption;
 use ozols::search::answer::ideas::Idea;
 use ozols::search::answer::k_best::Assignment;

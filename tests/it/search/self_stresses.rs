@@ -168,7 +168,7 @@ fn what_a_state_adds_is_counted_without_what_is_there_already() {
 /// What joints bear of a self-stress: nothing along or about what they leave free, and every link is in equilibrium.
 #[test]
 fn joints_bear_what_they_can_and_links_are_in_equilibrium() {
-    use ozols::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
+    use ozols::geom::vector::{Vector, add};
     use ozols::model::joint_type::Freedom;
     use ozols::model::mechanism::Role;
     use ozols::redundancy::analysis::{Method, analyse};

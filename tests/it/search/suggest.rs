@@ -259,15 +259,8 @@ fn commands_can_be_typed() {
     let (_folder, file) = written("my gripper.toml", builtin::text("gripper-10").unwrap());
     let text = out(&["analyze", file]);
     has(&text, &format!("ozols search '{}'\n", file));
-    let piped = ozols(&["analyze", "-"])
-        .write_stdin(builtin::text("gripper-10").unwrap())
-        .output()
-        .unwrap();
-    assert!(
-        String::from_utf8(piped.stdout)
-            .unwrap()
-            .contains("ozols search FILE\n")
-    );
+    let (_, piped, _) = fed("analyze -", builtin::text("gripper-10").unwrap());
+    has(&piped, "ozols search FILE\n");
 }
 
 #[test]

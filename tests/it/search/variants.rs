@@ -2,41 +2,25 @@
 
 use crate::common::*;
 /// Flags of a question and places in its list.
-const LISTS: [(&str, &[&str], &[usize]); 7] = [
-    ("gripper-10", &[], &[1, 7]),
-    ("gripper-10", &["--max-external", "2"], &[1, 3]),
+const LISTS: [(&str, &str, &[usize]); 7] = [
+    ("gripper-10", "", &[1, 7]),
+    ("gripper-10", "--max-external 2", &[1, 3]),
+    ("gripper-10", "--max-redundant 4 --max-changes 3", &[1, 4]),
     (
         "gripper-10",
-        &["--max-redundant", "4", "--max-changes", "3"],
-        &[1, 4],
-    ),
-    (
-        "gripper-10",
-        &[
-            "--options",
-            "revolute,cylindrical,spherical,sphere-in-cylinder",
-            "--symmetric",
-        ],
+        "--options revolute,cylindrical,spherical,sphere-in-cylinder --symmetric",
         &[2],
     ),
-    ("gripper-10-loaded", &["--pool", "50"], &[1, 3]),
-    ("four-bar", &[], &[1, 14]),
-    ("lever-gripper", &[], &[1, 2]),
+    ("gripper-10-loaded", "--pool 50", &[1, 3]),
+    ("four-bar", "", &[1, 14]),
+    ("lever-gripper", "", &[1, 2]),
 ];
 
-fn with<'a>(head: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
-    [head, more].concat()
-}
-
-fn listed(file: &str, flags: &[&str], k: usize) -> (Value, Value) {
-    let top = k.to_string();
-    let value = json(&with(
-        &["search", file, "--top", &top, "--format", "json"],
-        flags,
-    ));
+fn listed(file: &str, flags: &str, k: usize) -> Value {
+    let value = json(&format!("search {file} --top {k} --format json {flags}"));
     let variant = value["variants"][k - 1].clone();
     assert_eq!(variant["position"], k);
-    (value, variant)
+    variant
 }
 
 #[test]
@@ -45,30 +29,16 @@ fn an_exported_variant_has_the_figures_of_the_list() {
     let mut pads = 0;
     for (file, flags, places) in LISTS {
         for &k in places {
-            let (_, variant) = listed(file, flags, k);
-            let (top, path) = (k.to_string(), folder.path().join("v.toml"));
+            let variant = listed(file, flags, k);
+            let path = folder.path().join("v.toml");
             let path = path.to_str().unwrap();
-            let to = [
-                "export",
-                file,
-                "--variant",
-                &top,
-                "--to",
-                "toml",
-                "-o",
-                path,
-            ];
-            out(&with(&to, flags));
+            out(&format!(
+                "export {file} --variant {k} --to toml -o {path} {flags}"
+            ));
             let found = json(&["analyze", path, "--format", "json"]);
-            let free = &found["states"][0];
-            assert_eq!(
-                free["mobility"], variant["mobility"],
-                "{file} {flags:?} {k}"
-            );
-            assert_eq!(
-                free["redundant"], variant["redundant"],
-                "{file} {flags:?} {k}"
-            );
+            for key in ["mobility", "redundant"] {
+                assert_eq!(found["states"][0][key], variant[key], "{file} {flags} {k}");
+            }
             if let Some(external) = variant["external_redundant"].as_u64() {
                 let e = &found["states"][1]["external"];
                 assert_eq!(e["redundant_by_rank"].as_u64(), Some(external));
@@ -77,11 +47,9 @@ fn an_exported_variant_has_the_figures_of_the_list() {
             let written = fs::read_to_string(path).unwrap();
             pads += usize::from(written.contains("a-8 unloading"));
             for change in variant["changes"].list() {
-                let head = written
-                    .lines()
-                    .find(|l| l.starts_with("description"))
-                    .unwrap();
-                assert!(head.contains(change["joint"].word()), "{head}");
+                let mut lines = written.lines();
+                let head = lines.find(|l| l.starts_with("description")).unwrap();
+                has(head, change["joint"].word());
             }
             // What is a mechanism of its own is exported again like any other.
             out(&["export", path, "--to", "toml"]);
@@ -98,25 +66,16 @@ fn variants_in_every_format_and_drawn() {
         assert!(v.contains("gripper-10-variant-2"), "{to}: {v}");
     }
     // The ranked list, not that of cost.
-    let (_, first) = listed("gripper-10-loaded", &["--pool", "2000"], 1);
+    let first = listed("gripper-10-loaded", "--pool 2000", 1);
     let changed = first["changes"][0]["to"].word();
     let drawn = out("draw gripper-10-loaded --variant 1 --pool 2000");
     assert!(drawn.contains(changed), "{changed}");
-    for (args, part) in [
-        (
-            ["export", "four-bar", "--to", "dot", "--variant", "0"],
-            "numbered from 1",
-        ),
-        (
-            ["export", "four-bar", "--to", "dot", "--variant", "999"],
-            "no variant 999: the search gives",
-        ),
-    ] {
-        let o = run(&args);
-        let said = String::from_utf8(o.stderr).unwrap();
-        assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0));
-        assert!(said.contains(part), "{said}");
-    }
+    refuses(
+        "
+        export four-bar --to dot --variant 0 | numbered from 1
+        export four-bar --to dot --variant 999 | no variant 999: the search gives
+        ",
+    );
 }
 
 #[test]
@@ -143,57 +102,40 @@ fn a_search_says_what_to_do_next() {
 // Every condition said to help does, and nothing less would.
 #[test]
 fn what_would_help_where_nothing_is_found() {
-    let questions: [&[&str]; 4] = [
-        &["gripper-10", "--max-mobility", "1", "--max-changes", "3"],
-        &["gripper-10", "--max-mobility", "0"],
-        &[
-            "gripper-10",
-            "--max-external",
-            "1",
-            "--max-changes",
-            "5",
-            "--options",
-            "revolute,spherical,sphere-in-cylinder",
-        ],
-        &["gripper-10", "--options", "revolute,cylindrical"],
-    ];
     let mut seen = BTreeSet::new();
-    for q in questions {
-        let o = run(&with(&with(&["search"], q), &["--format", "json"]));
-        assert_eq!(o.status.code(), Some(1), "{q:?}");
-        let value: Value = serde_json::from_slice(&o.stdout).unwrap();
-        let eased = value["relaxations"].list();
-        for r in eased {
+    for q in [
+        "--max-mobility 1 --max-changes 3",
+        "--max-mobility 0",
+        "--max-external 1 --max-changes 5 --options revolute,spherical,sphere-in-cylinder",
+        "--options revolute,cylindrical",
+    ] {
+        let (code, told, _) = ran(&format!("search gripper-10 {q} --format json"));
+        assert_eq!(code, Some(1), "{q}");
+        let value: Value = serde_json::from_str(&told).unwrap();
+        for r in value["relaxations"].list() {
             let what = r["condition"].word();
             seen.insert(what.to_owned());
             let flag = format!("--{what}");
+            let own = words(q);
+            let others = own
+                .chunks(2)
+                .filter(|pair| pair[0] != flag)
+                .flatten()
+                .join(" ");
             let ask = |to: Option<i64>| {
-                let mut args: Vec<String> = vec!["search".to_owned()];
-                let mut words = q.iter().map(|w| (*w).to_owned());
-                while let Some(w) = words.next() {
-                    if w == flag {
-                        words.next();
-                    } else {
-                        args.push(w);
-                    }
-                }
-                args.push(flag.clone());
-                args.extend(to.map(|n| n.to_string()));
-                args.extend(["--count", "--format", "json"].map(str::to_owned));
-                let args: Vec<&str> = args.iter().map(String::as_str).collect();
-                let o = run(&args);
-                let v: Value = serde_json::from_slice(&o.stdout).unwrap();
-                count(&v["admissible"])
+                let to = to.map_or(String::new(), |n| n.to_string());
+                let line = format!("search gripper-10 {others} {flag} {to} --count --format json");
+                let found: Value = serde_json::from_str(&ran(&line).1).unwrap();
+                count(&found["admissible"])
             };
             let to = r["to"].as_i64();
-            assert_eq!(ask(to), count(&r["admissible"]), "{q:?} {r}");
+            assert_eq!(ask(to), count(&r["admissible"]), "{q} {r}");
             assert!(ask(to) > 0);
             if let Some(n) = to.filter(|n| *n > 0) {
-                assert_eq!(ask(Some(n - 1)), 0, "{q:?} {r}");
+                assert_eq!(ask(Some(n - 1)), 0, "{q} {r}");
             }
         }
-        let o = run(&with(&["search"], q));
-        let text = String::from_utf8(o.stdout).unwrap();
+        let (_, text, _) = ran(&format!("search gripper-10 {q}"));
         assert!(text.starts_with("gripper-10: none of "), "{text}");
         has(&text, "Offer more options");
     }
@@ -204,31 +146,19 @@ fn what_would_help_where_nothing_is_found() {
 /// from the same ones, each orbit with the same chance.
 #[test]
 fn orbits_are_listed_however_few_are_asked_for_and_sampled_alike() {
-    let rows = |args: &[&str]| -> Vec<String> {
-        let all = [
-            &[
-                "search",
-                "gripper-slider-two-fingers",
-                "--one-per-orbit",
-                "--check",
-                "none",
-                "--format",
-                "csv",
-            ],
-            args,
-        ]
-        .concat();
-        let text = out(&all);
+    let rows = |more: &str| -> Vec<String> {
+        let search = "search gripper-slider-two-fingers --one-per-orbit --check none --format csv";
+        let text = out(&format!("{search} {more}"));
         assert!(!text.contains('#'), "{text}");
         let choices = |l: &str| l.split_once(',').unwrap().1.to_owned();
         text.lines().skip(1).map(choices).collect()
     };
-    let whole = rows(&["--all"]);
+    let whole = rows("--all");
     assert_eq!(whole.len(), 302);
     for top in [1, 2, 3, 5, 10, 20, 50, 100, 301] {
-        assert_eq!(rows(&["--top", &top.to_string()]), whole[..top], "{top}");
+        assert_eq!(rows(&format!("--top {top}")), whole[..top], "{top}");
     }
-    let sample = rows(&["--sample", "3020"]);
+    let sample = rows("--sample 3020");
     assert_eq!(sample.len(), 3020);
     let mut drawn: BTreeMap<&String, usize> = whole.iter().map(|row| (row, 0)).collect();
     for row in &sample {
@@ -249,19 +179,10 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
     has(next, "--rank cost --variant 1");
     let folder = tempdir().unwrap();
     let to = folder.path().join("one.toml");
-    let of = [
-        "export",
-        "lever-gripper",
-        "--rank",
-        "cost",
-        "--variant",
-        "1",
-        "--to",
-        "toml",
-        "-o",
-        to.to_str().unwrap(),
-    ];
-    out(&of);
+    out(&format!(
+        "export lever-gripper --rank cost --variant 1 --to toml -o {}",
+        to.display()
+    ));
     let all = out(&["search", "lever-gripper", "--all", "--format", "csv"]);
     let mut lines = all.lines();
     let heads: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -274,10 +195,7 @@ fn what_follows_a_list_of_all_variants_is_of_that_list() {
         .take_while(|(head, _)| **head != "conditioning");
     let mut seen = 0;
     for (head, option) in joints {
-        let j = exported
-            .joint_ids()
-            .find(|&j| exported.joints[j].id == **head)
-            .unwrap();
+        let j = exported.joint(head).unwrap();
         assert_eq!(exported.joints[j].joint_type.name(), *option, "{head}");
         seen += 1;
     }

@@ -1,33 +1,30 @@
 //! What the kinetostatics of the shears goes through: accelerations, inertia forces, tangential reactions, force plans.
 
 use crate::common::*;
-fn number(v: &Value) -> f64 {
-    v.as_f64().unwrap()
-}
-
 fn pair(v: &Value) -> [f64; 2] {
-    [number(&v[0]), number(&v[1])]
-}
-
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
+    [v[0].real(), v[1].real()]
 }
 
 fn link<'a>(position: &'a Value, name: &str) -> &'a Value {
-    let all = position["links"].as_array().unwrap();
+    let all = position["links"].list();
     all.iter().find(|l| l["link"] == name).unwrap()
 }
 
 fn point(position: &Value, joint: &str) -> [f64; 2] {
-    let all = position["reactions"].as_array().unwrap();
+    let all = position["reactions"].list();
     pair(&all.iter().find(|r| r["joint"] == joint).unwrap()["point"])
+}
+
+fn mass_of(m: &Mechanism, link: &str) -> f64 {
+    let link = m.link(link).unwrap();
+    m.links[link].mass.as_ref().unwrap().mass
 }
 
 /// Accelerations are the second differences of the places by time; inertia forces and moments are by D'Alembert.
 #[test]
 fn accelerations_are_those_of_the_places() {
     let found = json("statics parallel-shears --stroke 0.4:0.5:100 --format json");
-    let positions = found["positions"].as_array().unwrap();
+    let positions = found["positions"].list();
     let shears = built_in("parallel-shears");
     let step = 0.001 / shears.loads.drive_speeds[0];
     for at in [1, 50, 99] {
@@ -36,15 +33,7 @@ fn accelerations_are_those_of_the_places() {
             let [before, now, after] = [centre(at - 1), centre(at), centre(at + 1)];
             let of = link(&positions[at], name);
             let told = pair(&of["acceleration"]);
-            let mass = shears
-                .links
-                .iter()
-                .find(|l| l.id == name)
-                .unwrap()
-                .mass
-                .as_ref()
-                .unwrap()
-                .mass;
+            let mass = mass_of(&shears, name);
             for i in 0..2 {
                 let found = (after[i] - 2.0 * now[i] + before[i]) / (step * step);
                 near(told[i], found, 1e-3 * (1.0 + told[i].abs()));
@@ -63,29 +52,15 @@ fn accelerations_are_those_of_the_places() {
 fn tangential_reactions_are_the_moments_over_the_rods() {
     let found = json("statics parallel-shears --stroke 0:360deg:8 --format json");
     let shears = built_in("parallel-shears");
-    let gravity = shears
-        .loads
-        .gravity
-        .as_ref()
-        .unwrap()
-        .clone()
-        .map(|x| x.to_f64());
-    for position in found["positions"].as_array().unwrap() {
+    let gravity = real(shears.loads.gravity.as_ref().unwrap());
+    for position in found["positions"].list() {
         let group = &position["contour_groups"][0];
         for (rod, near_end, far_end, key) in [
             ("6", "4-6", "6-10", "R46_tangential"),
             ("7", "4-7", "7-10", "R47_tangential"),
         ] {
             let of = link(position, rod);
-            let mass = shears
-                .links
-                .iter()
-                .find(|l| l.id == rod)
-                .unwrap()
-                .mass
-                .as_ref()
-                .unwrap()
-                .mass;
+            let mass = mass_of(&shears, rod);
             let (at, far) = (point(position, near_end), point(position, far_end));
             let arm = |p: [f64; 2]| [p[0] - far[0], p[1] - far[1]];
             let inertia = pair(&of["inertia_force"]);
@@ -93,16 +68,17 @@ fn tangential_reactions_are_the_moments_over_the_rods() {
                 inertia[0] + mass * gravity[0],
                 inertia[1] + mass * gravity[1],
             ];
-            let moment = cross(arm(pair(&of["centre"])), load) + number(&of["inertia_moment"]);
+            let moment = cross_plane(arm(pair(&of["centre"])), load) + of["inertia_moment"].real();
             let length = arm(at)[0].hypot(arm(at)[1]);
-            let told = number(&group[key]);
+            let told = group[key].real();
             near(told, -moment / length, 1e-9 * (1.0 + told.abs()));
         }
     }
     let text = out(&["statics", "parallel-shears", "--stroke", "0:360deg:2"]);
-    for part in ["R46τ", "R47τ", "R34τ", "inertia force, N", "ε, rad/s²"] {
-        assert!(text.contains(part), "{part}: {text}");
-    }
+    has_all(
+        &text,
+        &["R46τ", "R47τ", "R34τ", "inertia force, N", "ε, rad/s²"],
+    );
 }
 
 /// Whether a vector's name stands at its arrow, which it does where it is long enough.
@@ -135,10 +111,7 @@ fn force_plans_close_beside_those_of_the_full_solve() {
             // The plan's title has a comma and stands in quotes.
             let (title, rest) = line[1..].split_once('"').unwrap();
             let cells: Vec<&str> = rest.trim_start_matches(',').split(',').collect();
-            let v = [
-                cells[1].parse::<f64>().unwrap(),
-                cells[2].parse::<f64>().unwrap(),
-            ];
+            let v = [1, 2].map(|i| cells[i].parse::<f64>().unwrap());
             let sum = sums.entry(title.to_owned()).or_default();
             sum.0 = [sum.0[0] + v[0], sum.0[1] + v[1]];
             sum.1 = sum.1.max(v[0].hypot(v[1]));

@@ -10,26 +10,29 @@ use ozols::statics::solve::{Model, SolvedReactions, solve};
 
 /// A four-bar 0-1-2-3 drawn by x and y, stood in the plane of `along` and `up`.
 fn four_bar(along: [f64; 3], up: [f64; 3]) -> Mechanism {
-    let normal = [
-        along[1] * up[2] - along[2] * up[1],
-        along[2] * up[0] - along[0] * up[2],
-        along[0] * up[1] - along[1] * up[0],
-    ];
-    let mut text = "name = \"leans\"\nlength_unit = \"m\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\" }, { id = \"3\" }]\n".to_owned();
+    let normal = cross(along, up);
     let joints = [
-        ("0", "1", 0.0, 0.0),
-        ("1", "2", 0.0, 1.0),
-        ("2", "3", 3.0, 3.0),
-        ("3", "0", 4.0, 0.0),
+        ("0-1 | 0 1", 0.0, 0.0),
+        ("1-2 | 1 2", 0.0, 1.0),
+        ("2-3 | 2 3", 3.0, 3.0),
+        ("3-0 | 3 0", 4.0, 0.0),
     ];
-    for (n, (a, b, x, y)) in joints.into_iter().enumerate() {
+    let vector = |v: [f64; 3]| v.map(|x| format!("{x:?}")).join(", ");
+    let line = |(n, (links, x, y)): (usize, (&str, f64, f64))| {
         let p = [0, 1, 2].map(|i| x * along[i] + y * up[i]);
-        text += &format!(
-            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = {p:?}\naxis = {normal:?}\ndrive = {}\n",
+        format!(
+            "{links} | revolute | {} | {} | drive = {}",
+            vector(p),
+            vector(normal),
             n == 0
-        );
-    }
-    mechanism(&text)
+        )
+    };
+    let joints = joints.into_iter().enumerate().map(line).join("\n");
+    mechanism(&file_of(
+        "name = \"leans\"\nlength_unit = \"m\"",
+        "0 1 2* 3",
+        &joints,
+    ))
 }
 
 fn exact(v: [f64; 3]) -> [Expr; 3] {
@@ -102,21 +105,16 @@ fn the_frame_bears_its_own_and_inertia_acts_aside() {
 /// Two drives together do the work that the loads and the inertia of the links ask.
 #[test]
 fn the_power_of_all_drives_balances_the_loads() {
-    let text = "name = \"five\"\nmode = \"planar\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\", mass = 2, centre = [1, 2, 0], inertia = 0.2 }, { id = \"3\" }, { id = \"4\" }]\n";
-    let mut text = text.to_owned();
-    let joints = [
-        ("0", "1", 0, 0, true),
-        ("1", "2", 0, 1, false),
-        ("2", "3", 2, 3, false),
-        ("3", "4", 4, 2, false),
-        ("4", "0", 5, 0, true),
-    ];
-    for (a, b, x, y, drive) in joints {
-        text += &format!(
-            "[[joint]]\nid = \"{a}-{b}\"\nlinks = [\"{a}\", \"{b}\"]\ntype = \"revolute\"\npoint = [{x}, {y}, 0]\naxis = [0, 0, 1]\ndrive = {drive}\n"
-        );
-    }
-    let mut m = mechanism(&text);
+    let joints = "
+        0-1 | 0 1 | revolute | 0, 0, 0 | 0, 0, 1 | drive = true
+        1-2 | 1 2 | revolute | 0, 1, 0 | 0, 0, 1
+        2-3 | 2 3 | revolute | 2, 3, 0 | 0, 0, 1
+        3-4 | 3 4 | revolute | 4, 2, 0 | 0, 0, 1
+        4-0 | 4 0 | revolute | 5, 0, 0 | 0, 0, 1 | drive = true";
+    let text = file_of("name = \"five\"\nmode = \"planar\"", "0 1 2* 3 4", joints);
+    let role = "role = \"output\"\n";
+    let heavy = format!("{role}mass = 2\ncentre = [1, 2, 0]\ninertia = 0.2\n");
+    let mut m = mechanism(&changed(&text, role, &heavy));
     m.loads.gravity = Some(exact([0.0, -10.0, 0.0]));
     m.loads.drive_speeds = vec![1.0, -0.7];
     let found = statics(&m, StateId::FREE, None).unwrap();
@@ -148,9 +146,10 @@ fn a_weight_beside_the_plane_asks_for_space() {
 /// Where nothing turns, two slides across each other say which plane it is: theirs.
 #[test]
 fn two_slides_span_their_plane() {
-    let text = "name = \"table\"\nlink = [{ id = \"0\", role = \"frame\" }, { id = \"1\" }, { id = \"2\", role = \"output\" }]\n\
-        [[joint]]\nid = \"x\"\nlinks = [\"0\", \"1\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [1, 0, 0]\ndrive = true\n\
-        [[joint]]\nid = \"z\"\nlinks = [\"1\", \"2\"]\ntype = \"prismatic\"\npoint = [0, 0, 0]\naxis = [0, 0, 1]\ndrive = true\n";
+    let joints = "
+        x | 0 1 | prismatic | 0, 0, 0 | 1, 0, 0 | drive = true
+        z | 1 2 | prismatic | 0, 0, 0 | 0, 0, 1 | drive = true";
+    let text = &file_of("name = \"table\"", "0 1 2*", joints);
     let planar = PlanarMechanism::new(&mechanism(text), StateId::FREE).unwrap();
     assert_eq!(planar.axes[2].map(f64::abs), [0.0, 1.0, 0.0]);
 }

@@ -8,11 +8,6 @@ use ozols::statics::contour_group::pose::GroupPose;
 use ozols::statics::cycle::statics;
 use ozols::statics::pose::{cross, dot, length, minus, plus, quarter};
 
-fn unit(v: [f64; 2]) -> [f64; 2] {
-    let l = length(v);
-    v.map(|x| x / l)
-}
-
 /// Moment of the loads on one link about a point: ΣF l + ΣM.
 fn moment(g: &GroupPose, link: usize, about: [f64; 2]) -> f64 {
     let own = g.loads.iter().filter(|l| l.body == link);

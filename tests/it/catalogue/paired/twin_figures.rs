@@ -6,7 +6,7 @@ pub(in super::super) mod filed;
 
 use super::super::gauss;
 use super::{known, number, rows, some, three_generic};
-use filed::{FiledJoint, Gripper, Holds, Point, To, dot, length, place, quarter, sub, times};
+use filed::{FiledJoint, Gripper, Holds, Point, To, place};
 use std::array::from_fn;
 
 /// The friction of a task that says nothing of it: coefficient, and in mm the radius of pins and the length of guides.
@@ -164,7 +164,7 @@ impl Looked<'_> {
     pub(in super::super) fn speed(&self, link: usize, at: Point) -> Point {
         let [turning, u, v] = from_fn(|k| self.rates[3 * link + k]);
         let arm = sub(at, [self.x[3 * link + 1], self.x[3 * link + 2]]);
-        let [x, y] = times(turning, quarter(arm));
+        let [x, y] = scale(quarter(arm), turning);
         [x + u, y + v]
     }
 

@@ -1,22 +1,21 @@
 //! The long run of a programme repeated as it is written, against a plain integrator that runs it round after round.
 
-use super::drive;
+use super::{drive, steps};
 use crate::common::*;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use ozols::drive::programme::{Endurance, Module};
 use ozols::drive::swing::Feed;
-use ozols::model::drive::ProgrammeStep;
 
 /// Discs in absolute angles, with grooves and cams cut where they are: what is left of the drive when formulas are.
-struct Bench<'a> {
+pub(super) struct Bench<'a> {
     drive: &'a Module,
-    at: [f64; 2],
+    pub(super) at: [f64; 2],
     groove: [f64; 2],
 }
 
 impl Bench<'_> {
-    fn new(drive: &Module) -> Bench<'_> {
+    pub(super) fn new(drive: &Module) -> Bench<'_> {
         let phi = drive.latch.at;
         Bench {
             drive,
@@ -26,7 +25,7 @@ impl Bench<'_> {
     }
 
     /// How far short of its next groove a disc let go stops; 0 where it reaches it.
-    fn swing(&mut self, d: usize) -> f64 {
+    pub(super) fn swing(&mut self, d: usize) -> f64 {
         let (m, o) = (self.drive, 1 - d);
         let (disc, phi) = (&m.discs[d], m.latch.at);
         let way = (self.groove[o] - self.groove[d]).signum();
@@ -130,11 +129,10 @@ fn the_long_run_is_that_of_the_programme_as_it_is_written() {
         };
         let m = Module { feed, ..plain };
         let length = 1 + (any(0.0, 5.0) as usize);
-        let discs: Vec<usize> = (0..length)
+        let discs = (0..length)
             .map(|_| usize::from(any(0.0, 1.0) < 0.5))
-            .collect();
-        let programme: Vec<ProgrammeStep> =
-            discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
+            .collect_vec();
+        let programme = steps(&discs);
         let said = m.endurance(&programme).unwrap();
         let (n, missed, margin) = latched(&m, &discs, 200);
         if margin < 1e-7 {
@@ -167,8 +165,7 @@ fn the_shortfall_of_the_long_run_is_the_largest_of_a_round() {
         (vec![0, 1, 1], 0.42),
     ] {
         let m = drive([0.23, 0.11], 0.05, 0.0, 0.4, feed);
-        let programme: Vec<ProgrammeStep> =
-            discs.iter().map(|&d| ProgrammeStep::Swing(d)).collect();
+        let programme = steps(&discs);
         let Endurance::Lasts { missing } = m.endurance(&programme).unwrap() else {
             panic!("{discs:?}")
         };

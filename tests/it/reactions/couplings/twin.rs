@@ -6,34 +6,6 @@ use ozols::statics::reactions::Solution;
 
 type V = [f64; 3];
 
-fn value(v: &[ozols::geom::expr::Expr; 3]) -> V {
-    [v[0].to_f64(), v[1].to_f64(), v[2].to_f64()]
-}
-
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn times(a: V, x: f64) -> V {
-    a.map(|c| c * x)
-}
-
-fn minus(a: V, b: V) -> V {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn unit(a: V) -> V {
-    times(a, 1.0 / dot(a, a).sqrt())
-}
-
 /// A force at a point and a moment on a link, with a factor.
 struct Push {
     link: LinkId,
@@ -55,9 +27,9 @@ pub(super) struct Twin {
 /// Directions of a joint's freedoms: (whether it is a slide, the direction).
 fn freedoms(m: &Mechanism, j: JointId) -> Vec<(Freedom, bool, V)> {
     let frame = &m.joints[j].frame;
-    let z = unit(value(&frame.axis));
-    let r = value(&frame.reference);
-    let x = unit(minus(r, times(z, dot(r, z))));
+    let z = unit(real(&frame.axis));
+    let r = real(&frame.reference);
+    let x = unit(sub(r, scale(z, dot(r, z))));
     let y = cross(z, x);
     let one = |f: &Freedom| match f {
         Freedom::Rx => (*f, false, x),
@@ -84,15 +56,15 @@ fn mesh(m: &Mechanism, q: usize) -> Option<(LinkId, LinkId, V, V)> {
         return None;
     }
     let metres = m.length_unit.metres;
-    let place = |j: JointId| times(value(&m.joints[j].frame.point), metres);
-    let axis = |j: JointId| unit(value(&m.joints[j].frame.axis));
+    let place = |j: JointId| scale(real(&m.joints[j].frame.point), metres);
+    let axis = |j: JointId| unit(real(&m.joints[j].frame.axis));
     let forward = |l: [LinkId; 2]| if l[0] == carrier { 1.0 } else { -1.0 };
-    let (za, zb) = (times(axis(a), forward(la)), times(axis(b), forward(lb)));
+    let (za, zb) = (scale(axis(a), forward(la)), scale(axis(b), forward(lb)));
     let (pa, pb) = (place(a), place(b));
     let ratio = c.ratio.to_f64();
     match c.ends.map(|e| e.freedom) {
         [Freedom::Rz, Freedom::Rz] => {
-            if dot(cross(za, zb), cross(za, zb)) > 1e-16 || dot(minus(pb, pa), za).abs() > 1e-12 {
+            if dot(cross(za, zb), cross(za, zb)) > 1e-16 || dot(sub(pb, pa), za).abs() > 1e-12 {
                 return None;
             }
             let ratio = ratio * dot(za, zb).signum();
@@ -100,10 +72,7 @@ fn mesh(m: &Mechanism, q: usize) -> Option<(LinkId, LinkId, V, V)> {
             if ratio == 1.0 || pa == pb {
                 return None;
             }
-            let (line, apart) = (
-                unit(minus(pb, pa)),
-                dot(minus(pb, pa), minus(pb, pa)).sqrt(),
-            );
+            let (line, apart) = (unit(sub(pb, pa)), dot(sub(pb, pa), sub(pb, pa)).sqrt());
             // Both circles move alike where they touch: x ω_a = (x - apart) ω_b.
             let x = -apart * ratio / (1.0 - ratio);
             let at = [0, 1, 2].map(|i| pa[i] + x * line[i]);
@@ -112,7 +81,7 @@ fn mesh(m: &Mechanism, q: usize) -> Option<(LinkId, LinkId, V, V)> {
         [Freedom::Tz, Freedom::Rz] if dot(za, zb).abs() < 1e-12 => {
             let radius = metres / ratio;
             // The rack's velocity u is that of the pinion at p + n: ω z × n = u for ω = 1/radius.
-            let n = times(cross(za, zb), radius);
+            let n = scale(cross(za, zb), radius);
             let at = [0, 1, 2].map(|i| pb[i] + n[i]);
             Some((gear(la), gear(lb), at, za))
         }
@@ -144,10 +113,10 @@ impl Twin {
         };
         let e = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(i == k)));
         for (n, &j) in joints.iter().enumerate() {
-            let at = times(value(&m.joints[j].frame.point), metres);
+            let at = scale(real(&m.joints[j].frame.point), metres);
             for i in 0..3 {
                 for (link, sign) in m.joints[j].links.into_iter().zip([-1.0, 1.0]) {
-                    let force = times(e(i), sign);
+                    let force = scale(e(i), sign);
                     let push = Push {
                         link,
                         force,
@@ -182,7 +151,7 @@ impl Twin {
             out.teeth.push(mesh.map(|x| x.3));
             if let Some((first, second, at, way)) = mesh {
                 for (link, sign) in [(first, 1.0), (second, -1.0)] {
-                    let force = times(way, sign);
+                    let force = scale(way, sign);
                     put(
                         &mut out.rows,
                         column,
@@ -205,9 +174,9 @@ impl Twin {
                 let j = c.ends[n].joint;
                 let all = freedoms(m, j);
                 let way = all.iter().find(|f| f.0 == c.ends[n].freedom).unwrap().2;
-                let at = times(value(&m.joints[j].frame.point), metres);
+                let at = scale(real(&m.joints[j].frame.point), metres);
                 for (link, sign) in m.joints[j].links.into_iter().zip([-size, size]) {
-                    let (along, none) = (times(way, sign), [0.0; 3]);
+                    let (along, none) = (scale(way, sign), [0.0; 3]);
                     let (force, moment) = if slides(n) {
                         (along, none)
                     } else {
@@ -228,7 +197,7 @@ impl Twin {
         }
         for f in &m.loads.forces {
             let first = row_of(f.link).unwrap();
-            let (at, force) = (times(value(&f.point), metres), value(&f.force));
+            let (at, force) = (scale(real(&f.point), metres), real(&f.force));
             let turn = cross(at, force);
             for i in 0..3 {
                 out.right[first + i] -= force[i];
@@ -237,7 +206,7 @@ impl Twin {
         }
         for x in &m.loads.moments {
             let first = row_of(x.link).unwrap();
-            (0..3).for_each(|i| out.right[first + 3 + i] -= value(&x.moment)[i]);
+            (0..3).for_each(|i| out.right[first + 3 + i] -= real(&x.moment)[i]);
         }
         out
     }

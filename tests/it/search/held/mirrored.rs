@@ -1,6 +1,6 @@
 //! Mirror pairs that are none.
 
-use super::{file, searched};
+use super::searched;
 use crate::common::*;
 use ozols::search::question::conditions::Symmetry;
 
@@ -9,9 +9,9 @@ fn gripper() -> String {
 }
 
 fn refused(args: &[&str]) -> String {
-    let o = run(args);
-    assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{args:?}");
-    String::from_utf8(o.stderr).unwrap()
+    let (code, told, said) = ran(args);
+    assert_eq!((code, &*told), (Some(2), ""), "{args:?}");
+    said
 }
 
 #[test]
@@ -22,7 +22,7 @@ fn pairs_that_are_no_mirror_images_are_refused_with_their_distance() {
         "[\"2-3\", \"7-0\"], [\"3-0\", \"6-7\"]",
     );
     let line = wrong.lines().position(|l| l.starts_with("mirror")).unwrap() + 1;
-    let (_folder, path) = file(&wrong);
+    let (_folder, path) = written("m.toml", &wrong);
     for command in ["check", "search", "analyze"] {
         let said = refused(&[command, &path]);
         // (3, 2.5) mirrored is (3, -2.5), and 7-0 is at (3.5, -0.5).
@@ -45,20 +45,20 @@ fn orbits_need_exact_images() {
         "point = [3, -2.5, 0]",
         "point = [3, -2.50004, 0]",
     );
-    let (_folder, path) = file(&near);
+    let (_folder, path) = written("m.toml", &near);
     for flag in ["--symmetric", "--one-per-orbit"] {
         let said = refused(&["search", &path, flag, "--count"]);
         has(&said, "joint 2-3");
         has(&said, "4.000e-5 cm");
     }
-    assert!(count(&searched(&path, &["--count"])["determinate"]) > 0);
+    assert!(count(&searched(&path, "--count")["determinate"]) > 0);
 }
 
 /// Joints without a partner are their own images, or there are no orbits.
 #[test]
 fn what_has_no_image_is_told() {
     let alone = changed(&gripper(), ", [\"4-a\", \"a-8\"]]", "]");
-    let (_folder, path) = file(&alone);
+    let (_folder, path) = written("m.toml", &alone);
     let orbits = ["search", &path, "--one-per-orbit", "--count"];
     let said = refused(&[&orbits[..], &["--state", "clamped"]].concat());
     has(&said, "joint 4-a has no image");

@@ -1,18 +1,18 @@
 //! Unloading joints anywhere, σ by contour, joints of the free state alone, and what to do where nothing is found.
 
-use super::{file, pads, searched};
+use super::{pads, searched};
 use crate::common::*;
 use ozols::search::check::variant_mechanism::realize;
 
 fn refused(args: &[&str]) -> String {
-    let o = run(args);
-    assert_eq!((o.status.code(), o.stdout.len()), (Some(2), 0), "{args:?}");
-    String::from_utf8(o.stderr).unwrap()
+    let (code, told, said) = ran(args);
+    assert_eq!((code, &*told), (Some(2), ""), "{args:?}");
+    said
 }
 
 #[test]
 fn unloading_joints_are_offered_by_name() {
-    let (_folder, path) = file(&pads());
+    let (_folder, path) = written("m.toml", &pads());
     let space = |more: &[&str]| {
         let args = [&["--state", "clamped", "--count"][..], more].concat();
         count(&searched(&path, &args)["space"])
@@ -25,7 +25,7 @@ fn unloading_joints_are_offered_by_name() {
     let two = ["--unloading", "planar=a-8", "--unloading", "universal=1-2"];
     assert_eq!(space(&two), four * 2 * 2 * 3);
     // In the free mechanism, too.
-    let free = searched(&path, &["--unloading", "prismatic=2-4", "--count"]);
+    let free = searched(&path, "--unloading prismatic=2-4 --count");
     assert_eq!(count(&free["space"]), 2 * four);
     for (rule, parts) in [
         ("planar=4-a", &["joint 4-a", "add --state clamped"][..]),
@@ -65,7 +65,7 @@ fn an_unloading_joint_has_a_place_of_its_own() {
     let point = pad.frame.point.each_ref().map(Expr::to_f64);
     assert_eq!(point, [6.0, -2.0, 0.0]);
     // Written and read again it stays where it is.
-    let (_folder, path) = file(&text);
+    let (_folder, path) = written("m.toml", &text);
     let read = |name: &str| {
         let written = out(&["export", name, "--to", "toml"]);
         mechanism_from_str("m.toml", &written).unwrap()
@@ -81,7 +81,7 @@ fn an_unloading_joint_has_a_place_of_its_own() {
     // The variant is the mechanism with the joint there.
     let to = ["--to", "toml", "--variant", "1", "--state", "clamped"];
     let more = words("--max-external 3 --options revolute --max-redundant 11");
-    let written = out(&[&["export", path.as_str()][..], &to, &more].concat());
+    let written = out(&[&["export", path][..], &to, &more].concat());
     let v = mechanism_from_str("v.toml", &written).unwrap();
     let series = &v.joints[v.joint("a-8 unloading").unwrap()];
     assert_eq!(series.frame.point.each_ref().map(Expr::to_f64), point);
@@ -137,33 +137,16 @@ fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
     let sigma = |i: usize| i64::try_from(found[i].redundant).unwrap();
     let difference = sigma(1) - sigma(0);
     assert_eq!((e.redundant, e.by_rank), (difference, difference));
-    let (_folder, path) = file(text);
+    let (_folder, path) = written("m.toml", text);
     let present = words("--options revolute --max-redundant 30 --state clamped --max-changes 0");
     let v = searched(&path, &present)["variants"][0].clone();
     assert_eq!(v["external_redundant"].as_i64(), Some(difference));
     assert_eq!(v["agree"], true);
     // The diagram, and every variant looked at.
-    let small = [
-        "--options",
-        "revolute,spherical",
-        "--max-redundant",
-        "6",
-        "--max-external",
-        "1",
-        "--forbid",
-        "1-2",
-        "--forbid",
-        "2-3",
-        "--forbid",
-        "6-7",
-        "--forbid",
-        "3-0",
-        "--forbid",
-        "5-1",
-        "--count",
-    ];
-    let brute = [&small[..], &["--method", "brute"]].concat();
-    let (a, b) = (searched(&path, &small), searched(&path, &brute));
+    let small = "--options revolute,spherical --max-redundant 6 --max-external 1 --forbid 1-2 --forbid 2-3 --forbid 6-7 \
+        --forbid 3-0 --forbid 5-1 --count";
+    let brute = format!("{small} --method brute");
+    let (a, b) = (searched(&path, small), searched(&path, &brute));
     for key in words("determinate admissible admissible_by_mobility_and_changes") {
         assert_eq!(a[key], b[key], "{key}");
     }
@@ -173,18 +156,15 @@ fn a_joint_of_the_free_state_alone_counts_in_it_alone() {
 /// The clamped search has advice as any other.
 #[test]
 fn what_helps_a_clamped_search_is_said() {
-    let few = ["--max-external", "0", "--max-mobility", "4", "-q"];
-    let o = run(&[&["search", "gripper-10"][..], &few].concat());
-    let text = String::from_utf8(o.stdout).unwrap();
-    assert_eq!(o.status.code(), Some(1));
+    let (code, text, _) = ran("search gripper-10 --max-external 0 --max-mobility 4 -q");
+    assert_eq!(code, Some(1));
     has(&text, "--max-external 2 --max-mobility 4\n");
     // What balls alone hold turns between them, in the mechanism as it is and in every variant.
     let loose = pads().replace("type = \"fixed\"", "type = \"spherical\"");
     let loose = &loose[..loose.find("[[expected]]").unwrap()];
-    let (_folder, path) = file(loose);
-    let o = run(&["search", &path, "--state", "clamped"]);
-    let [text, notes] = [o.stdout, o.stderr].map(|b| String::from_utf8(b).unwrap());
-    assert_eq!(o.status.code(), Some(1));
+    let (_folder, path) = written("m.toml", loose);
+    let (code, text, notes) = ran(&["search", &path, "--state", "clamped"]);
+    assert_eq!(code, Some(1));
     has(&notes, "a is loose in state");
     has(&text, "--allow-loose-object\n");
 }
@@ -192,9 +172,8 @@ fn what_helps_a_clamped_search_is_said() {
 /// Where no choice of the options offered is enough, that is said, with the drive that stays as it is.
 #[test]
 fn where_no_option_can_help_that_is_said() {
-    let o = run(&["search", "four-bar", "--options", "revolute", "-q"]);
-    let said = String::from_utf8(o.stdout).unwrap();
-    assert_eq!(o.status.code(), Some(1));
+    let (code, said, _) = ran("search four-bar --options revolute -q");
+    assert_eq!(code, Some(1));
     let part = "Even with the freest option at every joint, σ = 3 remains, so no choice of these options is enough";
     assert!(said.contains(part), "{said}");
     has(&said, "stays unchanged, because it is driven");

@@ -12,26 +12,6 @@ const STEPS: f64 = 60.0;
 /// So many mm count as a radian of a link, so that turns and shifts fit as exactly.
 const ARM: f64 = 50.0;
 
-pub(in super::super::super) fn sub(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-pub(in super::super::super) fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-pub(in super::super::super) fn length(a: Point) -> f64 {
-    a[0].hypot(a[1])
-}
-
-pub(in super::super::super) fn quarter([x, y]: Point) -> Point {
-    [-y, x]
-}
-
-pub(in super::super::super) fn times(k: f64, a: Point) -> Point {
-    a.map(|x| k * x)
-}
-
 #[derive(Clone, Copy, PartialEq)]
 pub(in super::super::super) enum Holds {
     Hinge,
@@ -119,7 +99,7 @@ impl FiledJoint {
             holds,
             links: [0, 1].map(|k| link(&j["links"][k])),
             at: [0, 1].map(|k| real(&j["point"][k])),
-            along: times(1.0 / length(along), along),
+            along: scale(along, 1.0 / length(along)),
             pin: usize::from(block),
             driven: j.get("drive").is_some(),
         }
@@ -193,7 +173,7 @@ impl Gripper {
 
     /// Away from the part.
     pub(in super::super::super) fn outward(&self) -> Vec<Point> {
-        self.arms().map(|a| times(1.0 / length(a), a)).collect()
+        self.arms().map(|a| scale(a, 1.0 / length(a))).collect()
     }
 
     /// How far apart the tips are, as the forces of the part go: twice as far as they are from its middle on the average.
@@ -297,12 +277,12 @@ impl Gripper {
         if b.holds == Holds::Slide {
             let along = self.along(x, b, 0);
             // An arm of the pinion goes a quarter of a turn ahead of where it points.
-            let arm = times(-ratio, quarter(along));
+            let arm = scale(quarter(along), -ratio);
             return [from_fn(|k| centres[0][k] + arm[k]), along];
         }
         let apart = sub(centres[1], centres[0]);
         let share = ratio / (ratio - 1.0);
         let touch = from_fn(|k| centres[0][k] + share * apart[k]);
-        [touch, times(1.0 / length(apart), quarter(apart))]
+        [touch, scale(quarter(apart), 1.0 / length(apart))]
     }
 }
