@@ -10,7 +10,7 @@ use crate::geom::vector::{cross, dot, length, real, sub, unit};
 use crate::meant::relations::RelationKind;
 use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Frame, Joint, JointId, JointOption, Mechanism, Mode};
-use crate::model::rounded::{FrameUncertainty, Uncertainties, uncertainties};
+use crate::model::rounded::{FrameUncertainty, uncertainties};
 use num_rational::BigRational;
 use num_traits::Zero;
 
@@ -64,66 +64,41 @@ impl Gathered {
         self.rays.len() - 1
     }
 
-    fn frame(&mut self, f: &Frame, half: &FrameUncertainty, of: JointId, uses: Uses) -> Slots {
-        let zero = [0.0; 3];
+    /// Adds the parts of a frame that differ from the joint's own frame, if given with its slots.
+    fn frame(
+        &mut self,
+        f: &Frame,
+        half: &FrameUncertainty,
+        of: JointId,
+        uses: Uses,
+        own: Option<(&Frame, Slots)>,
+    ) -> Slots {
+        let kept = |part: fn(&Frame) -> &[Expr; 3], slot: fn(Slots) -> Option<usize>| {
+            own.filter(|(own, _)| written_alike(part(f), part(own)))
+                .map(|(_, slots)| slot(slots))
+        };
+        // Exact references are mostly the file's default axes, which say nothing about the scene.
+        let refers = uses.reference && half.reference != [0.0; 3];
         Slots {
-            point: Some(self.point(&f.point, half.point, of)),
-            axis: uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of))),
-            // Exact references are mostly the file's default axes, which say nothing about the scene.
-            reference: (uses.reference && half.reference != zero)
-                .then(|| self.ray(&f.reference, half.reference, Some(of))),
+            point: kept(|f| &f.point, |s| s.point)
+                .unwrap_or_else(|| Some(self.point(&f.point, half.point, of))),
+            axis: kept(|f| &f.axis, |s| s.axis)
+                .unwrap_or_else(|| uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of)))),
+            reference: kept(|f| &f.reference, |s| s.reference).unwrap_or_else(|| {
+                refers.then(|| self.ray(&f.reference, half.reference, Some(of)))
+            }),
         }
     }
 
     /// Adds the frame of a joint, with the directions used by it and by the options along its axis.
-    fn joint(&mut self, joint: &Joint, half: &Uncertainties, j: JointId) -> Slots {
-        let at = j.index();
+    fn joint(&mut self, joint: &Joint, half: &FrameUncertainty, j: JointId) -> Slots {
         let uses = joint
             .offered()
             .filter(|o| written_alike(&o.frame.axis, &joint.frame.axis))
             .fold(Uses::of(&joint.joint_type), |u, o| {
                 u.or(Uses::of(&o.joint_type))
             });
-        let halves = FrameUncertainty {
-            point: half.point[at],
-            axis: half.axis[at],
-            reference: half.reference[at],
-            pitch: half.pitch[at],
-        };
-        self.frame(&joint.frame, &halves, j, uses)
-    }
-
-    /// Adds the parts of an option's frame that differ from the joint's own frame, which has the given slots.
-    fn offered(
-        &mut self,
-        f: &Frame,
-        half: &FrameUncertainty,
-        of: JointId,
-        uses: Uses,
-        own: &Frame,
-        slots: Slots,
-    ) -> Slots {
-        let point = if written_alike(&f.point, &own.point) {
-            slots.point
-        } else {
-            Some(self.point(&f.point, half.point, of))
-        };
-        let axis = if written_alike(&f.axis, &own.axis) {
-            slots.axis
-        } else {
-            uses.axis.then(|| self.ray(&f.axis, half.axis, Some(of)))
-        };
-        let reference = if written_alike(&f.reference, &own.reference) {
-            slots.reference
-        } else {
-            (uses.reference && half.reference != [0.0; 3])
-                .then(|| self.ray(&f.reference, half.reference, Some(of)))
-        };
-        Slots {
-            point,
-            axis,
-            reference,
-        }
+        self.frame(&joint.frame, half, j, uses, None)
     }
 }
 
@@ -194,12 +169,12 @@ pub fn meant(mechanism: &Mechanism) -> Option<Meant> {
             offered.push(joint.offered().map(|_| Slots::default()).collect());
             continue;
         }
-        let slots = all.joint(joint, &half, j);
+        let slots = all.joint(joint, &half.frames[j.index()], j);
         own.push(slots);
         let halves = &half.option_frames[j.index()];
         let of_option = |(o, half): (&JointOption, &FrameUncertainty)| {
             let (frame, uses) = (&joint.frame, Uses::of(&o.joint_type));
-            all.offered(&o.frame, half, j, uses, frame, slots)
+            all.frame(&o.frame, half, j, uses, Some((frame, slots)))
         };
         offered.push(joint.offered().zip(halves).map(of_option).collect());
     }

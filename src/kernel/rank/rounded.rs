@@ -51,8 +51,8 @@ pub(in crate::rank) fn coordinates(
     };
     let mut out = Vec::new();
     for joint in joints {
-        let (frame, at) = (&m.joints[joint].frame, joint.index());
-        let halves = [half.point[at], half.axis[at], half.reference[at]];
+        let (frame, half) = (&m.joints[joint].frame, &half.frames[joint.index()]);
+        let halves = [half.point, half.axis, half.reference];
         let all = [&frame.point, &frame.axis, &frame.reference].map(real);
         for (vector, (of, halves)) in all.into_iter().zip(halves).enumerate().take(vectors) {
             let of_vector = of.into_iter().zip(halves).enumerate();

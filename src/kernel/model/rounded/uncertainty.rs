@@ -36,14 +36,8 @@ pub struct FrameNumbers {
 /// Half units of all numbers of a mechanism that may have been rounded, in the file's own numbers; 0 if they are exact.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Uncertainties {
-    /// Half units of the points, by joint, in the file's unit of length.
-    pub point: Vec<[f64; 3]>,
-    /// Half units of the components of the axes as written, by joint.
-    pub axis: Vec<[f64; 3]>,
-    /// Half units of the components of the references, by joint.
-    pub reference: Vec<[f64; 3]>,
-    /// Half units of the pitches per radian, by joint.
-    pub pitch: Vec<f64>,
+    /// Half units of the frames, by joint.
+    pub frames: Vec<FrameUncertainty>,
     /// Half units of the frames of the options, by joint, in the order of
     /// [`Joint::offered`](crate::model::mechanism::Joint::offered).
     pub option_frames: Vec<Vec<FrameUncertainty>>,
@@ -65,13 +59,15 @@ impl Uncertainties {
     /// Returns equal half units for all numbers of the joints: of lengths, and of directions of length 1.
     #[must_use]
     pub fn uniform(mechanism: &Mechanism, length: f64, direction: f64) -> Uncertainties {
-        let joints = mechanism.joints.iter();
         let of = |v: &[Expr; 3]| [direction * vector::length(real(v)); 3];
+        let frames = mechanism.joints.iter().map(|j| FrameUncertainty {
+            point: [length; 3],
+            axis: of(&j.frame.axis),
+            reference: of(&j.frame.reference),
+            pitch: 0.0,
+        });
         Uncertainties {
-            point: vec![[length; 3]; mechanism.joints.len()],
-            axis: joints.clone().map(|j| of(&j.frame.axis)).collect(),
-            reference: joints.map(|j| of(&j.frame.reference)).collect(),
-            pitch: vec![0.0; mechanism.joints.len()],
+            frames: frames.collect(),
             ..Uncertainties::default()
         }
     }
@@ -81,13 +77,12 @@ impl Uncertainties {
     pub fn largest(&self, mechanism: &Mechanism) -> [f64; 2] {
         let most = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
         let frames = mechanism.joints.iter().map(|j| &j.frame);
-        let axes = frames.clone().map(|f| &f.axis).zip(&self.axis);
-        let all = axes.chain(frames.map(|f| &f.reference).zip(&self.reference));
-        let directions = all.map(|(v, h)| most(h) / vector::length(real(v)));
-        [
-            self.point.iter().map(most).fold(0.0, f64::max),
-            directions.fold(0.0, f64::max),
-        ]
+        let directions = frames
+            .zip(&self.frames)
+            .flat_map(|(f, half)| [(&f.axis, &half.axis), (&f.reference, &half.reference)]);
+        let directions = directions.map(|(v, h)| most(h) / vector::length(real(v)));
+        let points = self.frames.iter().map(|half| most(&half.point));
+        [points.fold(0.0, f64::max), directions.fold(0.0, f64::max)]
     }
 }
 
@@ -136,11 +131,8 @@ pub fn uncertainties(mechanism: &Mechanism) -> Option<Uncertainties> {
         ..Uncertainties::default()
     };
     for joint in &mechanism.joints {
-        let (of, numbers) = reading.frame(&joint.frame);
-        out.point.push(of.point);
-        out.axis.push(of.axis);
-        out.reference.push(of.reference);
-        out.pitch.push(of.pitch);
+        let (half, numbers) = reading.frame(&joint.frame);
+        out.frames.push(half);
         out.numbers.push(numbers);
         let offered = joint.offered().map(|o| reading.frame(&o.frame).0);
         out.option_frames.push(offered.collect());

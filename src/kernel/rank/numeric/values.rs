@@ -72,24 +72,24 @@ impl Values {
 pub(in crate::rank) fn bound(m: &Mechanism, closure: &Closure<f64>, half: &Uncertainties) -> f64 {
     let size = Scaling::of(closure).length();
     let error = |freedom: Freedom, j: JointId| {
-        let (joint, at) = (&m.joints[j], j.index());
+        let (joint, half) = (&m.joints[j], &half.frames[j.index()]);
         let of = &joint.joint_type;
         let angle = |h: [f64; 3], v: &[Expr; 3]| norm(h) / norm(real(v));
-        let axis = angle(half.axis[at], &joint.frame.axis);
-        let length = norm(half.point[at]) / size;
+        let axis = angle(half.axis, &joint.frame.axis);
+        let length = norm(half.point) / size;
         let turns = of.freedoms().iter().filter(|f| f.turns()).count();
         // Second axes are computed from two vectors.
         let own = match freedom {
             Freedom::Rz | Freedom::Tz | Freedom::Screw => axis,
             Freedom::Rx | Freedom::Ry | Freedom::Tx | Freedom::Ty => {
-                axis + angle(half.reference[at], &joint.frame.reference)
+                axis + angle(half.reference, &joint.frame.reference)
             }
         };
         match freedom {
             Freedom::Tx | Freedom::Ty | Freedom::Tz => own,
             // Turns about a point are the same for any direction of its axes.
             Freedom::Rx | Freedom::Ry | Freedom::Rz if turns == 3 => length,
-            Freedom::Screw => 2.0 * own + 2.0 * length + half.pitch[at] / size,
+            Freedom::Screw => 2.0 * own + 2.0 * length + half.pitch / size,
             _ => 2.0 * own + length,
         }
     };

@@ -26,6 +26,10 @@ fn known(text: &str) -> Option<Uncertainties> {
     uncertainties(&read(text))
 }
 
+fn point_halves(half: &Uncertainties) -> Vec<[f64; 3]> {
+    half.frames.iter().map(|f| f.point).collect()
+}
+
 fn halves(v: &[Expr; 3]) -> [Option<f64>; 3] {
     v.each_ref().map(Expr::half_unit)
 }
@@ -151,11 +155,11 @@ fn every_decimal_of_a_rounded_file_has_its_own_unit() {
         "",
     ))
     .unwrap();
-    assert_eq!(u.point[0], [0.005, 0.005, 0.005]);
-    assert_eq!(u.point[1], [0.005, 0.005, 0.0]);
-    assert_eq!(u.axis[0], [5e-6; 3]);
-    assert_eq!(u.axis[1], [0.0; 3]);
-    assert_eq!(u.reference, [[0.0; 3]; 2]);
+    assert_eq!(u.frames[0].point, [0.005, 0.005, 0.005]);
+    assert_eq!(u.frames[1].point, [0.005, 0.005, 0.0]);
+    assert_eq!(u.frames[0].axis, [5e-6; 3]);
+    assert_eq!(u.frames[1].axis, [0.0; 3]);
+    assert!(u.frames.iter().all(|f| f.reference == [0.0; 3]));
 }
 
 #[test]
@@ -169,7 +173,7 @@ fn directions_that_are_chosen_stay_exact_beside_long_lengths() {
         "[1, 1, 0]",
         "[-0.5, \"sqrt(3)/2\", 0]",
     ] {
-        assert_eq!(u(chosen).axis[0], [0.0; 3], "{chosen}");
+        assert_eq!(u(chosen).frames[0].axis, [0.0; 3], "{chosen}");
     }
     // Rounded from a length of 1.
     assert_eq!(u("[0.71, 0.71, 0]").axis[0], [0.005, 0.005, 0.0]);
@@ -194,9 +198,9 @@ fn lost_zeros_are_found_again_where_many_decimals_show_none() {
     let u = uncertainties(&m).unwrap();
     assert_eq!(u.half_unit[0], 5e-7);
     // One place less: a lost zero. Whole: the writer's, too.
-    assert_eq!(u.point[0], [5e-7, 5e-7, 5e-7]);
+    assert_eq!(u.frames[0].point, [5e-7, 5e-7, 5e-7]);
     // Four places less: chosen, and not to be taken for something else.
-    assert_eq!(u.point[1], [5e-7, 5e-7, 5e-7]);
+    assert_eq!(u.frames[1].point, [5e-7, 5e-7, 5e-7]);
 }
 
 /// A direction that is written with fewer digits than others has its own unit, however many have more.
@@ -218,7 +222,7 @@ fn a_direction_of_fewer_digits_has_its_own_unit() {
         ),
     ] {
         let u = known(&door(points, axes, "")).unwrap();
-        for (found, half) in u.axis.iter().zip(halves) {
+        for (found, half) in u.frames.iter().map(|f| &f.axis).zip(halves) {
             assert!(
                 found.iter().all(|h| *h == 0.0 || *h == half),
                 "{axes:?}: {found:?}"
@@ -238,7 +242,7 @@ fn whole_lengths_beside_turned_directions_are_rounded_to_half_a_unit() {
         "",
     ))
     .unwrap();
-    assert_eq!(u.point, [[0.5; 3]; 2]);
+    assert_eq!(point_halves(&u), [[0.5; 3]; 2]);
     // An axis that both hinges have is three numbers, not six; 0 is one, and so on.
     assert_eq!(u.distinct, [6, 3]);
     assert_eq!(u.numbers[0].axis, u.numbers[1].axis);
@@ -275,13 +279,18 @@ fn what_is_stated_goes_before_digits() {
     let axes = ["[0.99998, 0.00001, 0.00632]", Z];
     let u = |more: &str| known(&door(points, axes, more));
     let both = u("[tolerance]\nlength = 0.01\ndirection = 1e-6\n").unwrap();
-    assert_eq!(both.point, [[0.01, 0.0, 0.0], [0.01, 0.01, 0.0]]);
+    assert_eq!(point_halves(&both), [[0.01, 0.0, 0.0], [0.01, 0.01, 0.0]]);
     let norm = (0.99998f64.powi(2) + 0.00001f64.powi(2) + 0.00632f64.powi(2)).sqrt();
-    assert!(both.axis[0].iter().all(|h| (h - 1e-6 * norm).abs() < 1e-18));
-    assert_eq!(both.axis[1], [0.0; 3]);
+    assert!(
+        both.frames[0]
+            .axis
+            .iter()
+            .all(|h| (h - 1e-6 * norm).abs() < 1e-18)
+    );
+    assert_eq!(both.frames[1].axis, [0.0; 3]);
     let lengths = u("[tolerance]\nlength = 0\n").unwrap();
     assert_eq!(
-        (lengths.point, lengths.axis[0]),
+        (point_halves(&lengths), lengths.frames[0].axis),
         (vec![[0.0; 3]; 2], [5e-6; 3])
     );
     assert_eq!(u("[tolerance]\nlength = 0\ndirection = 0\n"), None);
@@ -290,7 +299,7 @@ fn what_is_stated_goes_before_digits() {
         + "[[point]]\nid = \"tip\"\nlink = \"door\"\npoint = [3, 4, 0]\ntolerance = 0.1\n";
     let m = read(&own);
     let u = uncertainties(&m).unwrap();
-    assert_eq!(u.point, [[0.2; 3], [0.005, 0.005, 0.0]]);
+    assert_eq!(point_halves(&u), [[0.2; 3], [0.005, 0.005, 0.0]]);
     assert_eq!(u.points, [[0.1; 3]]);
 }
 
@@ -381,18 +390,21 @@ fn importers_state_what_the_digits_of_their_formats_say() {
         &urdf("xyz='0.49400 0 0'", "xyz='0.25012 0 0'", "0 0 1"),
     )
     .unwrap();
-    assert_eq!(lengths.point[0], [5e-6, 0.0, 0.0]);
-    assert_eq!(lengths.axis, [[0.0; 3]; 2]);
+    assert_eq!(lengths.frames[0].point, [5e-6, 0.0, 0.0]);
+    assert!(lengths.frames.iter().all(|f| f.axis == [0.0; 3]));
     // A turn to five digits moves what is half a metre off by as much.
     let turned = urdf("xyz='0.4 0 0' rpy='1.5708 0 0'", "xyz='0.5 0 0'", "0 0 1");
     let turned = of_robot("r.urdf", &turned).unwrap();
-    assert!((turned.point[1][0] - 2.5e-5).abs() < 1e-6, "{turned:?}");
-    assert!((turned.axis[0][1] - 5e-5).abs() < 1e-9, "{turned:?}");
+    assert!(
+        (turned.frames[1].point[0] - 2.5e-5).abs() < 1e-6,
+        "{turned:?}"
+    );
+    assert!((turned.frames[0].axis[1] - 5e-5).abs() < 1e-9, "{turned:?}");
     let mjcf = "<mujoco><worldbody><body name='a' pos='0.1 0 0'><joint name='p' axis='0 0 1'/>
         <body name='b' pos='0.25 0 0' euler='0 12.50 0'><joint name='q' axis='0 0 1'/></body></body></worldbody></mujoco>";
     let mjcf = of_robot("r.xml", mjcf).unwrap();
     let half = 0.005f64.to_radians();
-    let found = mjcf.axis[1].into_iter().fold(0.0, f64::max);
+    let found = mjcf.frames[1].axis.into_iter().fold(0.0, f64::max);
     assert!((found - half).abs() < 0.05 * half, "{mjcf:?}");
     let sdf = "<sdf version='1.9'><model name='m'><link name='a'/><link name='b'><pose>0.12345 0 0 0 0 0</pose></link>
         <joint name='w' type='fixed'><parent>world</parent><child>a</child></joint>

@@ -167,6 +167,7 @@ fn one_oblique_axis_or_option_turns_no_file() {
         hinges("[0, 0, 1]") + &option.replace("OBLIQUE", oblique),
     ] {
         let m = mechanism_from_str("door.toml", &file).unwrap();
-        assert_eq!(uncertainties(&m).unwrap().point, [[0.0; 3]; 2]);
+        let half = uncertainties(&m).unwrap();
+        assert!(half.frames.iter().all(|f| f.point == [0.0; 3]));
     }
 }

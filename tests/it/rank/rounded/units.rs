@@ -22,11 +22,15 @@ fn units(m: &Mechanism) -> [f64; 2] {
     let half = uncertainties(m).unwrap();
     let largest = |v: &[f64; 3]| v.iter().copied().fold(0.0, f64::max);
     let length = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let points = half.point.iter().map(largest).fold(0.0, f64::max);
-    let axes = m.joints.iter().zip(&half.axis);
-    let axes = axes.map(|(j, h)| largest(h) / length(real(&j.frame.axis)));
-    let others = m.joints.iter().zip(&half.reference);
-    let others = others.map(|(j, h)| largest(h) / length(real(&j.frame.reference)));
+    let points = half
+        .frames
+        .iter()
+        .map(|f| largest(&f.point))
+        .fold(0.0, f64::max);
+    let axes = m.joints.iter().zip(&half.frames);
+    let axes = axes.map(|(j, h)| largest(&h.axis) / length(real(&j.frame.axis)));
+    let others = m.joints.iter().zip(&half.frames);
+    let others = others.map(|(j, h)| largest(&h.reference) / length(real(&j.frame.reference)));
     [points, axes.chain(others).fold(0.0, f64::max)].map(|half| 2.0 * half)
 }
 
@@ -43,8 +47,8 @@ fn what_rounding_can_do_is_that_of_all_hinges_together() {
         let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let size = Scaling::of(&closure).length();
         let off = |j: JointId| {
-            let axis = norm(half.axis[j.index()]) / norm(real(&m.joints[j].frame.axis));
-            2.0 * axis + norm(half.point[j.index()]) / size
+            let axis = norm(half.frames[j.index()].axis) / norm(real(&m.joints[j].frame.axis));
+            2.0 * axis + norm(half.frames[j.index()].point) / size
         };
         let passed = closure.contours.iter().flat_map(|c| &c.joints);
         let squares: f64 = passed.map(|&(j, _)| off(j).powi(2)).sum();
