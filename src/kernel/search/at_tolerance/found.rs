@@ -2,6 +2,7 @@
 
 use super::judge::{Judged, Standing};
 use crate::search::answer::counts::Counts;
+use crate::search::answer::estimate::samples::interval;
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::diagram::Stop;
@@ -11,9 +12,6 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_bigint::BigUint;
 use std::collections::BTreeMap;
-
-/// The number of standard deviations that contain 95 % of a normal distribution.
-const NORMAL_95: f64 = 1.959_963_985;
 
 /// How many variants meet a condition.
 #[derive(Debug, Clone, Default)]
@@ -157,28 +155,13 @@ pub struct Share {
 }
 
 impl Share {
-    /// Returns the share of those found in a sample, with Wilson's interval (Journal of the American Statistical Association 22, 1927), which
-    /// holds for small numbers too.
+    /// Returns the share of those found in a sample, with its exact confidence interval.
     #[allow(clippy::cast_precision_loss, reason = "samples are small")]
     pub(super) fn of(sure: usize, may: usize, of: usize) -> Share {
-        let n = of as f64;
-        if of == 0 {
-            return Share {
-                mean: 0.0,
-                low: 0.0,
-                high: 1.0,
-            };
-        }
-        let z = NORMAL_95;
-        let bound = |found: usize, sign: f64| {
-            let p = found as f64 / n;
-            let spread = (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-            (p + z * z / (2.0 * n) + sign * z * spread) / (1.0 + z * z / n)
-        };
         Share {
-            mean: sure as f64 / n,
-            low: if sure == 0 { 0.0 } else { bound(sure, -1.0) },
-            high: if may == of { 1.0 } else { bound(may, 1.0) },
+            mean: sure as f64 / of.max(1) as f64,
+            low: interval(of, sure)[0],
+            high: interval(of, may)[1],
         }
     }
 }
@@ -216,23 +199,5 @@ pub(in crate::search) fn below(random: &mut ChaCha8Rng, n: usize) -> usize {
         if x < fair {
             return usize::try_from(x % n).unwrap_or(0);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Share;
-
-    #[test]
-    fn the_interval_is_wilsons() {
-        // Wilson's interval of 10 in 100, worked out by hand: 0.0552 to 0.1744.
-        let s = Share::of(10, 10, 100);
-        assert!(
-            (s.low - 0.0552).abs() < 1e-4 && (s.high - 0.1744).abs() < 1e-4,
-            "{s:?}"
-        );
-        let none = Share::of(0, 0, 20_000);
-        assert!(none.low == 0.0 && none.high < 2e-4);
-        assert_eq!(Share::of(0, 0, 0).high, 1.0);
     }
 }

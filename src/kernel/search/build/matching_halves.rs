@@ -40,18 +40,15 @@ pub(super) struct Grouped {
 impl Grouped {
     /// Groups nodes by their rows in reduced form, which have the motion of kept links as the last number. A node that moves these and
     /// closes every contour is completed by none.
-    pub(super) fn of(nodes: &[Vec<Vec<Residue>>]) -> Grouped {
-        let mut grouped = Grouped {
-            nodes: nodes.len(),
-            ..Grouped::default()
-        };
-        for (node, rows) in nodes.iter().enumerate() {
-            grouped.take(node, rows.clone());
-        }
+    pub(super) fn of(nodes: impl Iterator<Item = Vec<Vec<Residue>>>) -> Grouped {
+        let mut grouped = Grouped::default();
+        nodes.for_each(|rows| grouped.take(rows));
         grouped
     }
 
-    fn take(&mut self, node: usize, mut rows: Vec<Vec<Residue>>) {
+    fn take(&mut self, mut rows: Vec<Vec<Residue>>) {
+        let node = self.nodes;
+        self.nodes += 1;
         let moved: Vec<Residue> = rows.iter_mut().filter_map(Vec::pop).collect();
         let pivot = |row: &Vec<Residue>| row.iter().position(|&x| x != 0);
         let Some(pivots) = rows.iter().map(pivot).collect() else {

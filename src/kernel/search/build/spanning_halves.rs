@@ -100,41 +100,31 @@ impl<'a> Halves<'a> {
             let own = places.iter().map(|&at| row[at]);
             own.chain([row[live.len()]]).collect()
         };
-        let width = live.len() + 1;
-        let front = self.rows(front, width);
-        let back = self.rows(back, width).map(|rows| {
-            let rows = rows.into_iter().map(from_back);
-            Echelon::of(self.field, rows).reduced()
-        });
-        let (front, back): (Vec<_>, Vec<_>) = (front.collect(), back.collect());
-        let pairs = front.len().saturating_mul(back.len());
-        let grouped = self
-            .keeps
-            .then(|| [&front, &back].map(|nodes| Grouped::of(nodes)));
-        Meeting {
+        let packed = PackedRows {
             field: self.field,
-            width,
-            bases: Bases::new(self.field, &back, self.keeps),
-            grouped: grouped.filter(|[front, back]| lookups(front, back) / A_PAIR < pairs),
-            front,
+            keeps: self.keeps,
+            width: live.len() + 1,
+        };
+        let of_back = |node| {
+            let rows = packed.of(back, node).into_iter().map(from_back);
+            Echelon::of(self.field, rows).reduced()
+        };
+        let back: Vec<_> = (0..back.len()).map(of_back).collect();
+        let pairs = front.len().saturating_mul(back.len());
+        let grouped = self.keeps.then(|| {
+            let front = (0..front.len()).map(|node| packed.of(front, node));
+            [Grouped::of(front), Grouped::of(back.iter().cloned())]
+        });
+        let fewer = |[front, back]: &[Grouped; 2]| lookups(front, back) / A_PAIR < pairs;
+        let nodes = match grouped.filter(fewer) {
+            Some(grouped) => Compared::Grouped(grouped),
+            None => Compared::Pairs(Bases::new(self.field, &back, self.keeps)),
+        };
+        Meeting {
+            packed,
             pairs,
+            nodes,
         }
-    }
-
-    /// Returns the rows of each node, with a number of kept links behind the coordinates of contours: 0 if vectors have none.
-    fn rows(&self, nodes: &Nodes, width: usize) -> impl Iterator<Item = Vec<Vec<Residue>>> {
-        let packed = width - usize::from(!self.keeps);
-        let mut arithmetic = Arithmetic::new(self.field);
-        let mut rows = Rows::default();
-        (0..nodes.len()).map(move |node| {
-            rows.unpack(&mut arithmetic, packed, nodes.matrix(node));
-            let widened = rows.rows().map(|row| {
-                let mut row = row.to_vec();
-                row.resize(width, 0);
-                row
-            });
-            widened.collect()
-        })
     }
 }
 
@@ -186,25 +176,49 @@ fn turned(space: &SelfStressSpace) -> (SelfStressSpace, Vec<usize>) {
     (turned, places)
 }
 
-/// How the nodes of both halves of a part meet.
-pub(in crate::search) struct Meeting {
+/// The rows of nodes where both halves of a part meet.
+struct PackedRows {
     field: Field,
+    /// Whether vectors have a number for the motion of kept links.
+    keeps: bool,
     /// Coordinates of contours that both halves reach, and one of kept links.
     width: usize,
-    front: Vec<Vec<Vec<Residue>>>,
-    bases: Bases,
-    /// The nodes of both halves, if looking them up takes less time than comparing all pairs.
-    grouped: Option<[Grouped; 2]>,
+}
+
+impl PackedRows {
+    /// Returns the rows of a node, with a number of kept links behind the coordinates of contours: 0 if vectors have none.
+    fn of(&self, nodes: &Nodes, node: usize) -> Vec<Vec<Residue>> {
+        let packed = self.width - usize::from(!self.keeps);
+        let mut rows = Rows::default();
+        rows.unpack(&mut Arithmetic::new(self.field), packed, nodes.matrix(node));
+        let widened = rows.rows().map(|row| {
+            let mut row = row.to_vec();
+            row.resize(self.width, 0);
+            row
+        });
+        widened.collect()
+    }
+}
+
+/// How the nodes of both halves of a part meet.
+pub(in crate::search) struct Meeting {
+    packed: PackedRows,
     pairs: usize,
+    nodes: Compared,
+}
+
+/// The nodes of both halves if they are looked up, which takes less time if many of them span the same; otherwise those of the back half.
+enum Compared {
+    Grouped([Grouped; 2]),
+    Pairs(Bases),
 }
 
 impl Meeting {
     /// Returns the number of pairs of nodes to compare; 0 if nodes are looked up.
     pub(in crate::search) fn pairs(&self) -> usize {
-        if self.grouped.is_some() {
-            0
-        } else {
-            self.pairs
+        match self.nodes {
+            Compared::Grouped(_) => 0,
+            Compared::Pairs(_) => self.pairs,
         }
     }
 
@@ -217,17 +231,20 @@ impl Meeting {
     /// [`DEAD`]: crate::search::diagram::DEAD
     pub(in crate::search) fn join(
         &self,
+        front: &Nodes,
         bytes: usize,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Option<(Vec<u32>, Vec<Set>)> {
-        if let Some(grouped) = &self.grouped {
-            return matched(self.field, self.width - 1, grouped, bytes, cancelled);
-        }
+        let PackedRows { field, width, .. } = self.packed;
+        let back = match &self.nodes {
+            Compared::Grouped(nodes) => return matched(field, width - 1, nodes, bytes, cancelled),
+            Compared::Pairs(back) => back,
+        };
         if self.pairs / 8 > bytes {
             return None;
         }
-        let of_node = |node: usize| self.bases.completing(&self.front[node], self.width);
-        let sets = completed(self.front.len(), of_node, cancelled)?;
+        let of_node = |node: usize| back.completing(&self.packed.of(front, node), width);
+        let sets = completed(front.len(), of_node, cancelled)?;
         let mut numbered = Numbered::default();
         let of_node = sets.into_iter().map(|set| numbered.of(set)).collect();
         Some((of_node, numbered.all))

@@ -110,7 +110,7 @@ pub(in crate::search) fn two_sided(
     let mut layers: Vec<Layer> = Vec::new();
     let mut total = 1;
     for (met, meeting) in parts {
-        let (of_front, sets) = meeting.join(left / 4, cancelled)?;
+        let (of_front, sets) = meeting.join(&met.front.nodes, left / 4, cancelled)?;
         let (back, sets) = without_twins(met.back.layers, sets);
         let found = put_together(met.front.layers, &of_front, &back, sets, most)?;
         total += found.iter().map(|l| l.nodes).sum::<usize>();

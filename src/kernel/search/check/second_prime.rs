@@ -6,8 +6,6 @@
 //! nodes in the order in which they are met, so agreement is equality edge by edge, and then every count, every list
 //! and every sample drawn from them is equal too.
 
-use crate::format::plural;
-use crate::search::answer::counts::Counts;
 use crate::search::answer::search_counts::SearchCounts;
 use crate::search::answer::variants_in_order::cheapest;
 use crate::search::build::Diagrams;
@@ -17,12 +15,7 @@ use crate::search::diagram::{Diagram, Progress, Stop};
 use crate::search::question::Question;
 use itertools::Itertools;
 use num_bigint::BigUint;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 use thiserror::Error;
-
-/// Maximum number of differences in a message.
-const TOLD: usize = 4;
 
 /// The result of the second prime.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +47,7 @@ impl PrimeCheck {
 #[derive(Debug, Clone, Error)]
 #[error(
     "two primes disagree, so neither answer is given. Modulo {}: {} determinate and {} admissible variants. Modulo {}: \
-     {} determinate and {} admissible variants. They differ in {differences}. One of the primes divides a minor of \
+     {} determinate and {} admissible variants. One of the primes divides a minor of \
      this geometry, perhaps a coordinate itself; give the coordinates in other units or with fewer digits",
     primes[0], determinate[0], admissible[0], primes[1], determinate[1], admissible[1]
 )]
@@ -65,8 +58,6 @@ pub struct Disagreement {
     pub determinate: [BigUint; 2],
     /// Admissible variants modulo each.
     pub admissible: [BigUint; 2],
-    /// The first differences in words.
-    pub differences: String,
 }
 
 /// Builds the diagrams of a search and of its twin over another prime, in parallel.
@@ -113,33 +104,20 @@ pub fn compare(
     if equal {
         return Ok(Verdict::Agree);
     }
-    let count = |i: usize| SearchCounts::of(questions[i], diagrams[i]);
-    let best = |i: usize| {
-        let list = cheapest(questions[i], diagrams[i], top);
-        list.collect_vec()
-    };
-    compare_counts(questions, [&count(0), &count(1)])?;
-    let (one, two) = (best(0), best(1));
-    if one == two {
-        return Ok(Verdict::Agree);
+    let [first, second] = [0, 1].map(|i| SearchCounts::of(questions[i], diagrams[i]));
+    let best = |i: usize| cheapest(questions[i], diagrams[i], top).collect_vec();
+    if best(0) != best(1) {
+        return Err(disagreement(questions, [&first, &second]));
     }
-    let at = one.iter().zip(&two).take_while(|(a, b)| a == b).count();
-    let differences = format!("the variant at position {} of the list", at + 1);
-    let counts = count(0);
-    Err(disagreement(questions, [&counts, &counts], differences))
+    compare_counts(questions, [&first, &second])
 }
 
 /// Returns the error of two primes that differ in something.
-fn disagreement(
-    questions: [&Question; 2],
-    counts: [&SearchCounts; 2],
-    differences: String,
-) -> Box<Disagreement> {
+fn disagreement(questions: [&Question; 2], counts: [&SearchCounts; 2]) -> Box<Disagreement> {
     Box::new(Disagreement {
         primes: primes(questions),
         determinate: counts.map(|c| c.determinate.total.clone()),
         admissible: counts.map(|c| c.admissible.total.clone()),
-        differences,
     })
 }
 
@@ -153,21 +131,10 @@ pub fn compare_counts(
 ) -> Result<Verdict, Box<Disagreement>> {
     let [a, b] = counts;
     if a == b {
-        return Ok(Verdict::Agree);
+        Ok(Verdict::Agree)
+    } else {
+        Err(disagreement(questions, counts))
     }
-    let mut told = differences("determinate", &a.determinate, &b.determinate);
-    told.extend(differences("admissible", &a.admissible, &b.admissible));
-    match (&a.lasting, &b.lasting) {
-        (Some(a), Some(b)) => told.extend(differences("lasting", a, b)),
-        (None, None) => {}
-        _ => told.push("whether the motion can be followed".to_owned()),
-    }
-    let more = told.len().saturating_sub(TOLD);
-    let mut text = told.iter().take(TOLD).join("; ");
-    if more > 0 {
-        text += &format!("; and {more} more");
-    }
-    Err(disagreement(questions, counts, text))
 }
 
 /// The primes of two searches.
@@ -184,37 +151,4 @@ fn same(a: &Diagram, b: &Diagram) -> bool {
             .iter()
             .zip(&b.layers)
             .all(|(a, b)| (a.variable, &a.edges) == (b.variable, &b.edges))
-}
-
-fn differences(what: &str, a: &Counts, b: &Counts) -> Vec<String> {
-    fn of<K: Ord + Clone>(
-        what: &str,
-        a: &BTreeMap<K, BigUint>,
-        b: &BTreeMap<K, BigUint>,
-        name: impl Fn(&K) -> String,
-    ) -> Vec<String> {
-        let keys: BTreeSet<&K> = a.keys().chain(b.keys()).collect();
-        let get = |m: &BTreeMap<K, BigUint>, k: &K| m.get(k).cloned().unwrap_or_default();
-        keys.into_iter()
-            .map(|k| (k, get(a, k), get(b, k)))
-            .filter(|(_, x, y)| x != y)
-            .map(|(k, x, y)| format!("{what} with {} ({x} and {y})", name(k)))
-            .collect()
-    }
-    fn number<K: Display>(symbol: &str) -> impl Fn(&K) -> String {
-        move |k| format!("{symbol} = {k}")
-    }
-    let mut out = of(what, &a.by_redundant, &b.by_redundant, number("σ"));
-    out.extend(of(what, &a.by_mobility, &b.by_mobility, number("W")));
-    out.extend(of(what, &a.by_freedoms, &b.by_freedoms, number("f")));
-    let changes = |k: &u32| plural(*k as usize, "change");
-    out.extend(of(what, &a.by_changes, &b.by_changes, changes));
-    let both = |(w, c): &(i64, u32)| format!("W = {w} and {}", plural(*c as usize, "change"));
-    out.extend(of(
-        what,
-        &a.by_mobility_and_changes,
-        &b.by_mobility_and_changes,
-        both,
-    ));
-    out
 }

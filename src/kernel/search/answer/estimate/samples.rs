@@ -130,7 +130,7 @@ fn number(of: usize) -> f64 {
 }
 
 /// Returns the smallest and the largest probability for which the number found, or a more extreme one, is not rarer than [`TAIL`].
-fn interval(samples: usize, found: usize) -> [f64; 2] {
+pub(in crate::search) fn interval(samples: usize, found: usize) -> [f64; 2] {
     let low = match found {
         0 => 0.0,
         _ => bisected(|p| 1.0 - up_to(samples, found - 1, p) < TAIL),
