@@ -35,27 +35,17 @@ pub use contents::{Commands, Page, Redesigns, SHOWN};
 pub use symbols::named_swaps;
 pub use symbols::swaps;
 
-/// A file beside this one: where it stands in the source tree, and its text.
-macro_rules! part {
-    ($path:literal) => {
-        (
-            concat!(env!("CARGO_MANIFEST_DIR"), "/", $path),
-            include_str!($path),
-        )
-    };
-}
-
 /// The scripts that the studio's page runs too, in their order.
-pub const SHARED: [(&str, &str); 6] = [
-    part!("page/script/element.js"),
-    part!("page/script/hull.js"),
-    part!("page/script/scene.js"),
-    part!("page/script/closure.js"),
-    part!("page/script/player.js"),
-    part!("page/script/drag.js"),
+pub const SHARED: [&str; 6] = [
+    include_str!("page/script/element.js"),
+    include_str!("page/script/hull.js"),
+    include_str!("page/script/scene.js"),
+    include_str!("page/script/closure.js"),
+    include_str!("page/script/player.js"),
+    include_str!("page/script/drag.js"),
 ];
 /// The look that the studio's page has too.
-pub const LOOK: (&str, &str) = part!("page/look.css");
+pub const LOOK: &str = include_str!("page/look.css");
 /// The script of the report by idea, in the order it is run, after what is shared.
 const SCRIPT: [&str; 10] = [
     include_str!("page/script/data.js"),
@@ -156,7 +146,7 @@ pub fn html(page: &Page<'_>) -> Result<String, AnalysisError> {
                     }
                 }
                 script type="application/json" id="data" { (PreEscaped(data)) }
-                script { @for (_, part) in SHARED { (PreEscaped(part)) } @for part in SCRIPT { (PreEscaped(part)) } }
+                script { @for part in SHARED.iter().chain(&SCRIPT) { (PreEscaped(part)) } }
             }
         }
         "\n"

@@ -3,60 +3,39 @@
 use crate::draw::SHEET_STYLE;
 use crate::page::{LOOK, SHARED};
 use maud::{DOCTYPE, Markup, html};
-use std::borrow::Cow;
-
-/// A part of what is served. A debug build reads it from the source tree each time, so that it can be worked on without a new
-/// build.
-macro_rules! part {
-    ($path:literal) => {
-        (
-            concat!(env!("CARGO_MANIFEST_DIR"), "/src/studio/", $path),
-            include_str!($path),
-        )
-    };
-}
 
 /// The studio's own scripts by idea, in the order they are run, after those that the report's page shares with it.
-const SCRIPTS: [(&str, &str); 18] = [
-    part!("script/talk.js"),
-    part!("script/things.js"),
-    part!("script/number.js"),
-    part!("script/camera.js"),
-    part!("script/preview.js"),
-    part!("script/sheet.js"),
-    part!("script/snap.js"),
-    part!("script/build.js"),
-    part!("script/tools.js"),
-    part!("script/pointer.js"),
-    part!("script/inspect.js"),
-    part!("script/search.js"),
-    part!("script/verdict.js"),
-    part!("script/ideas.js"),
-    part!("script/text.js"),
-    part!("script/shelf.js"),
-    part!("script/keys.js"),
-    part!("script/main.js"),
+const SCRIPTS: [&str; 18] = [
+    include_str!("script/talk.js"),
+    include_str!("script/things.js"),
+    include_str!("script/number.js"),
+    include_str!("script/camera.js"),
+    include_str!("script/preview.js"),
+    include_str!("script/sheet.js"),
+    include_str!("script/snap.js"),
+    include_str!("script/build.js"),
+    include_str!("script/tools.js"),
+    include_str!("script/pointer.js"),
+    include_str!("script/inspect.js"),
+    include_str!("script/search.js"),
+    include_str!("script/verdict.js"),
+    include_str!("script/ideas.js"),
+    include_str!("script/text.js"),
+    include_str!("script/shelf.js"),
+    include_str!("script/keys.js"),
+    include_str!("script/main.js"),
 ];
-const STYLES: [(&str, &str); 2] = [LOOK, part!("studio.css")];
+const STYLES: [&str; 3] = [SHEET_STYLE, LOOK, include_str!("studio.css")];
 
 /// The picture of the window's tab.
 pub(super) const ICON: &str = include_str!("icon.svg");
 
-/// A part of what is served: as the file at `path` has it in a debug build.
-fn now(path: &str, built_in: &'static str) -> Cow<'static, str> {
-    let newer = cfg!(debug_assertions).then(|| std::fs::read_to_string(path).ok());
-    newer.flatten().map_or(Cow::Borrowed(built_in), Cow::Owned)
-}
-
 pub(super) fn script() -> String {
-    let all = SHARED.into_iter().chain(SCRIPTS);
-    all.map(|(path, built_in)| now(path, built_in)).collect()
+    [SHARED.concat(), SCRIPTS.concat()].concat()
 }
 
 pub(super) fn style() -> String {
-    let all = STYLES.into_iter();
-    let own: String = all.map(|(path, built_in)| now(path, built_in)).collect();
-    format!("{SHEET_STYLE}\n{own}")
+    STYLES.concat()
 }
 
 /// The frame of the page, which the scripts fill.

@@ -1,10 +1,9 @@
 //! Which address does what.
 
 use super::desk::Refused;
-use super::disk::Opening;
 use super::http::{Asked, Reply};
 use super::idea::{self, Taken};
-use super::room::{self, Room};
+use super::room::{self, Found, Room};
 use super::{paper, shelf, work};
 use crate::api::export;
 use crate::draw::{Subject, kinematic, scheme};
@@ -12,46 +11,21 @@ use crate::file::edit::Edit;
 use crate::model::mechanism::StateId;
 use crate::robots::formats;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
+use std::sync::Arc;
 
-/// What is sent: a change, and what it is made of.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Changes {
+/// What is sent: each address takes some of these.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Sent {
     edits: Vec<Edit>,
+    /// The revision that it is made of, or that ideas are of.
     revision: Option<u64>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Saving {
     name: Option<String>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Named {
-    name: String,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Idea {
+    /// The number of an idea, from 1.
     idea: usize,
-    revision: u64,
-}
-
-/// The number of a wider request, from 0; `None` for the first request.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Wider {
+    /// The number of a wider request, from 0; `None` for the first request.
     wider: Option<usize>,
-    revision: u64,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Yes {
     yes: bool,
 }
 
@@ -114,15 +88,11 @@ fn exported(format: &str, room: &Room) -> Reply {
         "kinematic.svg" => ("svg", Ok(kinematic(&subject()).svg)),
         "scheme.svg" => match work::states(&m) {
             Ok(found) => {
-                let analysis = found.first();
-                (
-                    "svg",
-                    Ok(scheme(&Subject {
-                        analysis,
-                        ..subject()
-                    })
-                    .svg),
-                )
+                let analysed = Subject {
+                    analysis: found.first(),
+                    ..subject()
+                };
+                ("svg", Ok(scheme(&analysed).svg))
             }
             Err(why) => return Reply::refusal(422, &why),
         },
@@ -144,15 +114,14 @@ fn exported(format: &str, room: &Room) -> Reply {
     }
 }
 
-fn read<'a, T: Deserialize<'a>>(asked: &'a Asked) -> Result<T, Refused> {
-    serde_json::from_slice(&asked.body).map_err(|e| Refused::Words(format!("invalid request: {e}")))
-}
-
 fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
+    // As an object first: a list would be taken for the fields in their order.
+    let sent = serde_json::from_slice::<Map<String, Value>>(&asked.body)
+        .and_then(|all| serde_json::from_value::<Sent>(all.into()))
+        .map_err(|e| Refused::Words(format!("invalid request: {e}")))?;
     match path {
         "edit" => {
-            let Changes { edits, revision } = read(asked)?;
-            let done = room.at_desk(|desk| desk.edit(&edits, revision));
+            let done = room.at_desk(|desk| desk.edit(&sent.edits, sent.revision));
             if let Err(Refused::Conflict(_)) = &done {
                 // Whoever was too late gets what there is now.
                 room.windows.tell(&room::event("look", &room.desk().json()));
@@ -160,8 +129,7 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
             done
         }
         "draft" => {
-            let Changes { edits, .. } = read(asked)?;
-            let (_, reading) = room.desk().draft(&edits)?;
+            let (_, reading) = room.desk().draft(&sent.edits)?;
             let mut out = reading.json();
             if let Some(m) = &reading.mechanism
                 && let Ok(found) = work::states(m)
@@ -174,39 +142,27 @@ fn post(asked: &Asked, path: &str, room: &Room) -> Result<Value, Refused> {
             desk.step(path == "redo");
             Ok(())
         }),
-        "save" => {
-            let Saving { name } = read(asked)?;
-            room.at_desk(|desk| desk.save(name.as_deref()))
-        }
-        "begin" => {
-            let Named { name } = read(asked)?;
-            room.at_desk(|desk| {
-                let opening = shelf::opening(&name, desk.folder());
-                let none = || Refused::Words(format!("there is no {name} to start from"));
-                let opening: Opening = opening.ok_or_else(none)?;
-                desk.begin(&opening)
-            })
-        }
-        "take" => take(&read(asked)?, room),
-        "ask" => ask(&read(asked)?, room),
+        "save" => room.at_desk(|desk| desk.save(sent.name.as_deref())),
+        "begin" => room.at_desk(|desk| {
+            let name = sent.name.unwrap_or_default();
+            let opening = shelf::opening(&name, desk.folder());
+            let none = || Refused::Words(format!("there is no {name} to start from"));
+            desk.begin(&opening.ok_or_else(none)?)
+        }),
+        "take" => take(&sent, room),
+        "ask" => ask(&sent, room),
         "stop" => {
             room.stop(room.desk().revision);
             Ok(json!({}))
         }
-        "settle" => {
-            let Yes { yes } = read(asked)?;
-            room.at_desk(|desk| {
-                desk.settle(yes);
-                Ok(())
-            })
-        }
-        "restore" => {
-            let Yes { yes } = read(asked)?;
-            room.at_desk(|desk| {
-                desk.restore(yes);
-                Ok(())
-            })
-        }
+        "settle" => room.at_desk(|desk| {
+            desk.settle(sent.yes);
+            Ok(())
+        }),
+        "restore" => room.at_desk(|desk| {
+            desk.restore(sent.yes);
+            Ok(())
+        }),
         _ => Err(Refused::Words("nothing exists at this address".to_owned())),
     }
 }
@@ -218,27 +174,27 @@ fn old() -> Refused {
     )
 }
 
-fn ask(asked: &Wider, room: &Room) -> Result<Value, Refused> {
-    let wider = match asked.wider {
-        None => None,
-        Some(n) => {
-            let found = room.found(asked.revision).ok_or_else(old)?;
-            Some(found.wider.get(n).cloned().ok_or_else(old)?)
-        }
-    };
-    room.ask(wider)
+/// Returns what was found of the revision that a request is of.
+fn found(sent: &Sent, room: &Room) -> Result<Arc<Found>, Refused> {
+    let found = sent.revision.and_then(|r| room.found(r));
+    found.ok_or_else(old)
 }
 
-fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
-    let found = room.found(asked.revision).ok_or_else(old)?;
+fn ask(sent: &Sent, room: &Room) -> Result<Value, Refused> {
+    let wider = |n| found(sent, room)?.wider.get(n).cloned().ok_or_else(old);
+    room.ask(sent.wider.map(wider).transpose()?)
+}
+
+fn take(sent: &Sent, room: &Room) -> Result<Value, Refused> {
+    let found = found(sent, room)?;
     let reading = {
         let desk = room.desk();
-        if desk.revision != asked.revision {
+        if desk.revision != found.revision {
             return Err(old());
         }
         desk.reading.clone()
     };
-    let taken = idea::take(&reading, &found.outcome, asked.idea)?;
+    let taken = idea::take(&reading, &found.outcome, sent.idea)?;
     let mut told = room.at_desk(|desk| match taken {
         Taken::Edits(edits) => desk.edit(&edits, None),
         Taken::Fixed(bytes) => {
@@ -246,6 +202,6 @@ fn take(asked: &Idea, room: &Room) -> Result<Value, Refused> {
             Ok(())
         }
     })?;
-    told["taken"] = json!(asked.idea);
+    told["taken"] = json!(sent.idea);
     Ok(told)
 }

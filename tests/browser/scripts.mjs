@@ -10,10 +10,11 @@ const read = (file) => readFileSync(path.join(root, file), "utf8");
 /** The scripts that a page has, in the order of its Rust file. */
 const listed = (file, pattern, folder) => [...read(file).matchAll(pattern)].map((m) => path.join(folder, m[1]));
 
-const SHARED = listed("src/show/page.rs", /part!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show");
+const report = listed("src/show/page.rs", /include_str!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show");
+const shared = Number(/SHARED: \[&str; (\d+)\]/.exec(read("src/show/page.rs"))[1]);
 const PAGES = {
-  report: [...SHARED, ...listed("src/show/page.rs", /include_str!\("(page\/script\/[\w/]+\.js)"\)/g, "src/show")],
-  studio: [...SHARED, ...listed("src/studio/paper.rs", /part!\("([\w/]+\.js)"\)/g, "src/studio")],
+  report,
+  studio: [...report.slice(0, shared), ...listed("src/studio/paper.rs", /include_str!\("([\w/]+\.js)"\)/g, "src/studio")],
   catalogue: listed("src/show/page/catalogue.rs", /include_str!\("(script\/[\w/]+\.js)"\)/g, "src/show/page"),
 };
 

@@ -113,6 +113,25 @@ impl Ruler {
         measure(self.scale, value).map(|v| self.fraction(v))
     }
 
+    /// Creates a ruler without ticks.
+    fn bare(scale: Scale, lo: f64, hi: f64) -> Ruler {
+        Ruler {
+            scale,
+            lo,
+            hi,
+            ticks: Vec::new(),
+            fine: Vec::new(),
+        }
+    }
+
+    /// Creates a tick at a measured quantity.
+    fn tick(&self, measured: f64, label: Label) -> Tick {
+        Tick {
+            at: self.fraction(measured).clamp(0.0, 1.0),
+            label: Some(label),
+        }
+    }
+
     fn fraction(&self, measured: f64) -> f64 {
         // halved, so that the widest ranges do not overflow
         (measured / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
@@ -233,20 +252,9 @@ fn linear_by(lo: f64, hi: f64, count: f64, fit: AxisFit) -> Ruler {
         (lo, hi) = (lo.min(value(first)), hi.max(value(last)));
     }
     let most = whole.iter().map(|k| k.abs()).max().unwrap_or(0);
-    let mut ruler = Ruler {
-        scale: Scale::Linear,
-        lo,
-        hi,
-        ticks: Vec::new(),
-        fine: Vec::new(),
-    };
-    ruler.ticks = whole
-        .iter()
-        .map(|&k| Tick {
-            at: ruler.fraction(value(k)).clamp(0.0, 1.0),
-            label: Some(decimal(k, exponent, most)),
-        })
-        .collect();
+    let mut ruler = Ruler::bare(Scale::Linear, lo, hi);
+    let tick = |&k: &i64| ruler.tick(value(k), decimal(k, exponent, most));
+    ruler.ticks = whole.iter().map(tick).collect();
     ruler
 }
 
@@ -256,16 +264,15 @@ fn ten(exponent: i32) -> f64 {
 
 /// Formats `whole` times ten to the `exponent` like its neighbours, the largest of which is `most`.
 fn decimal(whole: i64, exponent: i32, most: i64) -> Label {
-    let plain = |base| Label { base, power: None };
     if whole == 0 {
-        return plain("0".to_owned());
+        return Label::plain("0".to_owned());
     }
     let sign = if whole < 0 { "\u{2212}" } else { "" };
     let top = exponent + most.max(1).ilog10() as i32;
     if top < 6 && exponent >= -4 {
         let size = whole.unsigned_abs() as f64 * ten(exponent);
         let digits = format!("{size:.0$}", (-exponent).max(0) as usize);
-        return plain(format!("{sign}{}", style::grouped(&digits)));
+        return Label::plain(format!("{sign}{}", style::grouped(&digits)));
     }
     let decimals = (top - exponent).max(0);
     let mantissa = whole.unsigned_abs() as f64 / ten(decimals);
@@ -295,25 +302,17 @@ fn log(lo: f64, hi: f64, fit: AxisFit, room: Room, zero: Option<i32>) -> Ruler {
     let last = (hi + 1e-9).floor() as i32;
     let plain = first >= -3 && last <= 5;
     let most = counts(room).next().unwrap_or(1.0) as i32 + 1;
-    let mut ruler = Ruler {
-        scale: zero.map_or(Scale::Log, Scale::LogAndZero),
-        lo,
-        hi,
-        ticks: Vec::new(),
-        fine: Vec::new(),
-    };
+    let mut ruler = Ruler::bare(zero.map_or(Scale::Log, Scale::LogAndZero), lo, hi);
     for step in [1, 2, 3, 5, 10, 20, 50, 100, 200, 500] {
         let decades = (first..=last).filter(|e| e % step == 0 || Some(*e) == zero);
-        ruler.ticks = decades
-            .map(|e| Tick {
-                at: ruler.fraction(f64::from(e)).clamp(0.0, 1.0),
-                label: Some(if Some(e) == zero {
-                    Label::plain("0".to_owned())
-                } else {
-                    decade(e, plain)
-                }),
-            })
-            .collect();
+        let tick = |e| {
+            let label = match zero {
+                Some(z) if z == e => Label::plain("0".to_owned()),
+                _ => decade(e, plain),
+            };
+            ruler.tick(f64::from(e), label)
+        };
+        ruler.ticks = decades.map(tick).collect();
         if ruler.ticks.len() as i32 <= most && !ruler.crowded(room) {
             break;
         }
@@ -338,8 +337,5 @@ fn decade(exponent: i32, plain: bool) -> Label {
         };
     }
     let digits = format!("{:.1$}", ten(exponent), (-exponent).max(0) as usize);
-    Label {
-        base: style::grouped(&digits),
-        power: None,
-    }
+    Label::plain(style::grouped(&digits))
 }

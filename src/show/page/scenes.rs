@@ -43,27 +43,36 @@ pub fn moving_scene(
     if moving.is_empty() {
         moving.push(Moving::still(m, state).ok()?);
     }
-    let moves: Vec<(String, Moved<'_>)> = moving
-        .iter()
-        .map(|m| (m.moved().words.to_owned(), m.moved()))
-        .collect();
+    Some(scene(m, (Some(found), state), &moving, &stresses, swaps))
+}
+
+/// Draws it in one state: its motions, its self-stresses, and what redesigns put at its joints.
+fn scene(
+    m: &Mechanism,
+    (analysis, state): (Option<&StateAnalysis>, StateId),
+    moving: &[Moving],
+    stresses: &[(String, &SelfStress)],
+    swaps: &[Swap<'_>],
+) -> (Drawing, Scene) {
     let subject = Subject {
         mechanism: m,
         state,
-        analysis: Some(found),
+        analysis,
         marks: None,
     };
+    let moves: Vec<Moved<'_>> = moving.iter().map(Moving::moved).collect();
     let shown = Shown {
         moves: &moves,
-        stresses: &stresses,
+        stresses,
         swaps,
     };
-    Some(kinematic_scene(&subject, &Sight::default(), shown))
+    kinematic_scene(&subject, &Sight::default(), shown)
 }
 
 /// The picture of it at rest, without title and legend.
 pub fn still_picture(m: &Mechanism) -> Option<String> {
-    let (Drawing { svg, .. }, scene) = still(m, None, StateId::FREE, &[])?;
+    let rest = [Moving::still(m, StateId::FREE).ok()?];
+    let (Drawing { svg, .. }, scene) = scene(m, (None, StateId::FREE), &rest, &[], &[]);
     let [left, top, right, bottom] = scene.room();
     let room = format!("viewBox=\"{left} {top} {} {}\"", right - left, bottom - top);
     let (before, rest) = svg.split_once("width=\"")?;
@@ -78,28 +87,6 @@ pub fn still_scene(
     of: (Option<&StateAnalysis>, StateId),
     swaps: &[Swap<'_>],
 ) -> Option<Scene> {
-    let (found, state) = of;
-    still(m, found, state, swaps).map(|(_, scene)| scene)
-}
-
-fn still(
-    m: &Mechanism,
-    found: Option<&StateAnalysis>,
-    state: StateId,
-    swaps: &[Swap<'_>],
-) -> Option<(Drawing, Scene)> {
-    let rest = Moving::still(m, state).ok()?;
-    let moves = [(rest.moved().words.to_owned(), rest.moved())];
-    let subject = Subject {
-        mechanism: m,
-        state,
-        analysis: found,
-        marks: None,
-    };
-    let shown = Shown {
-        moves: &moves,
-        stresses: &[],
-        swaps,
-    };
-    Some(kinematic_scene(&subject, &Sight::default(), shown))
+    let rest = [Moving::still(m, of.1).ok()?];
+    Some(scene(m, of, &rest, &[], swaps).1)
 }

@@ -17,7 +17,6 @@ use crate::draw::subject::Subject;
 use crate::draw::symbol::pieces::{Piece, tidy};
 use crate::draw::symbol::placed::Swap;
 use crate::model::mechanism::LinkId;
-use crate::motion::drive_range::Way;
 use crate::motion::pose::Pose;
 use crate::redundancy::stress::SelfStress;
 use crate::svg::plane::{Point, Rect};
@@ -58,8 +57,8 @@ pub struct Scene {
 /// What a scene shows besides the mechanism.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
-    /// The motions, each with a name; at least one, which may be of one pose.
-    pub moves: &'a [(String, Moved<'a>)],
+    /// The motions, at least one, which may be of one pose.
+    pub moves: &'a [Moved<'a>],
     /// The self-stresses, each with a name.
     pub stresses: &'a [(String, &'a SelfStress)],
     /// What redesigns may put at its joints.
@@ -71,23 +70,23 @@ pub struct Shown<'a> {
 #[must_use]
 pub fn kinematic_scene(subject: &Subject<'_>, sight: &Sight, shown: Shown<'_>) -> (Drawing, Scene) {
     let mut rest = Kinematic::new(subject, sight);
-    let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(|(_, m)| poses(m)).collect();
+    let of: Vec<Vec<Carried<'_>>> = shown.moves.iter().map(poses).collect();
     let mut scene = rest.scene();
     scene.swaps = rest.swap_in(&mut scene, shown.swaps);
     let mut frames = Vec::new();
-    for (n, ((name, moved), poses)) in shown.moves.iter().zip(&of).enumerate() {
+    for (n, (moved, poses)) in shown.moves.iter().zip(&of).enumerate() {
         let lines = rest.moving_lines(poses);
         frames.extend(poses.iter().map(|c| rest.picture(Some(c), &lines)));
         for line in &lines {
             let row = rest.row(line.link);
             scene.wire(&rest, row, line.class, "line", &line.ends, Some(n));
         }
-        scene.add_move(&rest, name, moved.way, poses);
+        scene.add_move(&rest, moved, poses);
     }
-    if let (Some((_, first)), Some(poses)) = (shown.moves.first(), of.first()) {
+    if let (Some(first), Some(poses)) = (shown.moves.first(), of.first()) {
         rest.traces = (rest.ways(poses), first.way.closed);
     }
-    let start = shown.moves.first().map_or(0, |(_, m)| m.way.start);
+    let start = shown.moves.first().map_or(0, |m| m.way.start);
     let mut area = rest.room_of(&frames, start);
     let mut arrows = Vec::new();
     for (name, stress) in shown.stresses {
@@ -115,7 +114,8 @@ impl Scene {
     }
 
     /// A motion, with the ways of its points as seen from the frame.
-    fn add_move(&mut self, rest: &Kinematic<'_>, name: &str, way: &Way, poses: &[Carried<'_>]) {
+    fn add_move(&mut self, rest: &Kinematic<'_>, moved: &Moved<'_>, poses: &[Carried<'_>]) {
+        let way = moved.way;
         let frame = rest.row(rest.subject.mechanism.frame());
         for (link, tip) in rest.tips() {
             let trace: Vec<Vector> = poses.iter().map(|c| c.point(link, tip)).collect();
@@ -125,7 +125,7 @@ impl Scene {
         }
         let carried = poses.iter().map(|c| rest.carried_in_pixels(c));
         self.moves.push(json!({
-            "name": name,
+            "name": moved.words,
             "closed": way.closed,
             "start": way.start,
             // By pose and link a rotation vector and where the origin goes; nothing where the link rests.

@@ -146,31 +146,26 @@ pub(in crate::draw) fn best(
     sight: &Sight,
 ) -> Projection {
     let middle = middle(places);
-    let mut best: Option<(f64, Projection)> = None;
-    for (view, dear) in views_to_try(places, sight) {
+    let tried = views_to_try(places, sight).into_iter().map(|(view, dear)| {
         let view = sight.turned(view);
-        let on: Vec<Point> = places
-            .iter()
-            .map(|p| view.flat(sub(p.point, middle)))
-            .collect();
-        let beside = more.iter().map(|&p| view.flat(sub(p, middle)));
+        let flat = |p| view.flat(sub(p, middle));
+        let on: Vec<Point> = places.iter().map(|p| flat(p.point)).collect();
+        let beside = more.iter().map(|&p| flat(p));
         let area = bounds(&on.iter().copied().chain(beside).collect::<Vec<_>>());
         let scale = to_fill(room, &area);
-        let on: Vec<Point> = on.iter().map(|p| [p[0] * scale, p[1] * scale]).collect();
+        let on: Vec<Point> = on.iter().map(|p| p.map(|x| x * scale)).collect();
         let cost = dear + crowd(places, &on, links, frame) + edge_on(&view, turning);
-        if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
-            let scale = scale * room_for_symbols(&on);
-            let found = Projection {
-                view,
-                scale,
-                middle,
-            };
-            best = Some((cost, found));
-        }
-    }
+        let found = Projection {
+            view,
+            scale: scale * room_for_symbols(&on),
+            middle,
+        };
+        (cost, found)
+    });
+    let best = tried.reduce(|a, b| if b.0 < a.0 - 1e-9 { b } else { a });
     best.map_or_else(
         || Projection {
-            view: views()[0],
+            view: along_z(),
             scale: 1.0,
             middle,
         },

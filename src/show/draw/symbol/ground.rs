@@ -1,7 +1,7 @@
 //! The ground of a kinematic scheme: where the frame is, once for all joints of one place.
 
-use crate::draw::place::projection::ONE_PLACE;
 use crate::draw::sheet::Sheet;
+use crate::draw::symbol::placed::one_place;
 use crate::model::mechanism::LinkId;
 use crate::svg::plane::{Point, Rect, add, bounds, dot, norm, polyline, scale, sub, unit};
 use std::f64::consts::TAU;
@@ -95,10 +95,6 @@ impl Ground {
     }
 }
 
-fn together(a: Point, b: Point) -> bool {
-    norm(sub(a, b)) < ONE_PLACE
-}
-
 /// A place of the frame's joints.
 struct GroundSpot {
     at: Point,
@@ -111,58 +107,44 @@ struct GroundSpot {
 }
 
 impl GroundSpot {
-    /// A ground in one of sixteen directions; a rail has two.
-    fn ground(&self, step: i32) -> TriedGround {
-        // straight down is best, then what is clear
-        let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
-        let (dir, ground) = match self.rail {
-            Some((along, off)) => {
-                let side = [-along[1], along[0]];
-                let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
-                let rail = Ground {
-                    from: self.at,
-                    to: add(self.at, scale(dir, off)),
-                    half: RAIL,
-                };
-                (dir, rail)
-            }
-            None => {
-                let wide = self.room.right - self.room.left;
-                let reach = wide.min(self.room.bottom - self.room.top) / 2.0 + 9.0;
-                let angle = TAU * f64::from(step) / 16.0;
-                let dir = [angle.cos(), angle.sin()];
-                (dir, Ground::pivot(self.at, add(self.at, scale(dir, reach))))
-            }
-        };
-        TriedGround {
-            tilt: 0.25 * (1.0 - dir[1]) + aslant,
-            dir,
-            ground,
+    /// A ground in one of sixteen directions, and where that is; a rail has two.
+    fn ground(&self, step: i32) -> (Ground, Point) {
+        if let Some((along, off)) = self.rail {
+            let side = [-along[1], along[0]];
+            let dir = scale(side, if step % 2 == 0 { 1.0 } else { -1.0 });
+            let rail = Ground {
+                from: self.at,
+                to: add(self.at, scale(dir, off)),
+                half: RAIL,
+            };
+            return (rail, dir);
         }
+        let [left, top, right, bottom] = self.room.edges();
+        let reach = (right - left).min(bottom - top) / 2.0 + 9.0;
+        let angle = TAU * f64::from(step) / 16.0;
+        let dir = [angle.cos(), angle.sin()];
+        (Ground::pivot(self.at, add(self.at, scale(dir, reach))), dir)
     }
 
-    /// How bad a ground is: how far from upright, what it covers, and which links go its way.
-    fn cost(&self, tried: &TriedGround, feet: &[Foot], others: &[Ground]) -> f64 {
-        let mut cost = tried.tilt;
-        let near = tried.ground.rect().grown(1.0);
-        for other in feet.iter().filter(|f| !together(f.at, self.at)) {
-            cost += if near.overlaps(&other.room) { 4.0 } else { 0.0 };
-        }
-        cost += 3.0 * others.iter().filter(|g| g.rect().overlaps(&near)).count() as f64;
-        for &link in &self.dirs {
-            cost += 2.5 * beside(tried.dir, link);
-        }
-        cost
+    /// The ground that is the least bad: for how far from upright it is, what it covers, and which links go its way.
+    fn best(&self, feet: &[Foot], others: &[Ground]) -> Option<Ground> {
+        let tried = (0..16).map(|step| {
+            let (ground, dir) = self.ground(step);
+            // straight down is best, then what is clear
+            let aslant = if step % 4 == 0 { 0.0 } else { 0.9 };
+            let near = ground.rect().grown(1.0);
+            let foreign = feet.iter().filter(|f| !one_place(f.at, self.at));
+            let symbols = foreign.filter(|f| near.overlaps(&f.room)).count();
+            let grounds = others.iter().filter(|g| g.rect().overlaps(&near)).count();
+            let along = self.dirs.iter().map(|&link| dot(dir, unit(link)));
+            let links: f64 = along.filter(|&share| share > 0.5).sum();
+            let covered = 4.0 * symbols as f64 + 3.0 * grounds as f64;
+            let cost = 0.25 * (1.0 - dir[1]) + aslant + covered + 2.5 * links;
+            (cost, ground)
+        });
+        let best = tried.reduce(|a, b| if b.0 < a.0 - 1e-9 { b } else { a });
+        best.map(|(_, ground)| ground)
     }
-}
-
-/// A ground that may stand at a place.
-struct TriedGround {
-    ground: Ground,
-    /// Where it is from the joint.
-    dir: Point,
-    /// How bad its direction is in itself.
-    tilt: f64,
 }
 
 /// Where links that move go from the joints `here`: to their other joints, and to their free ends.
@@ -183,12 +165,6 @@ fn directions_out(
     ends.map(|end| sub(end, at)).collect()
 }
 
-/// How much two directions are one.
-fn beside(dir: Point, other: Point) -> f64 {
-    let along = dot(dir, unit(other));
-    if along > 0.5 { along } else { 0.0 }
-}
-
 /// The ground at each place of the frame's joints, where there is most room; the free ends of links are given with their
 /// joints.
 pub(in crate::draw) fn grounds(
@@ -204,33 +180,20 @@ pub(in crate::draw) fn grounds(
     let moving = links.iter().filter(|(l, _)| *l != frame);
     let moving: Vec<&[usize]> = moving.map(|(_, of)| of.as_slice()).collect();
     for (n, &i) in of.iter().enumerate() {
-        let at = feet[i].at;
-        if of[..n].iter().any(|&k| together(feet[k].at, at)) {
+        let Foot { at, room, .. } = feet[i];
+        let there = |k: &usize| one_place(feet[*k].at, at);
+        if of[..n].iter().any(there) {
             continue;
         }
-        let here: Vec<usize> = (0..feet.len())
-            .filter(|&k| together(feet[k].at, at))
-            .collect();
+        let here: Vec<usize> = (0..feet.len()).filter(there).collect();
+        let mut own = here.iter().filter(|k| of.contains(k));
         let spot = GroundSpot {
             at,
             dirs: directions_out(at, &here, feet, &moving, loose),
-            room: here
-                .iter()
-                .fold(feet[i].room, |r, &k| r.with(&feet[k].room)),
-            rail: here
-                .iter()
-                .filter(|k| of.contains(k))
-                .find_map(|&k| feet[k].slide),
+            room: here.iter().fold(room, |r, &k| r.with(&feet[k].room)),
+            rail: own.find_map(|&k| feet[k].slide),
         };
-        let mut best: Option<(f64, Ground)> = None;
-        for step in 0..16 {
-            let tried = spot.ground(step);
-            let cost = spot.cost(&tried, feet, &out);
-            if best.as_ref().is_none_or(|(least, _)| cost < least - 1e-9) {
-                best = Some((cost, tried.ground));
-            }
-        }
-        out.extend(best.map(|(_, g)| g));
+        out.extend(spot.best(feet, &out));
     }
     out
 }
