@@ -178,7 +178,7 @@ fn by_default(m: &Mechanism) -> Option<WarningKind> {
         let given = |e: &Expr| e.is_written_whole() || e.half_unit().is_some();
         let types =
             std::iter::once(&joint.joint_type).chain(joint.offered().map(|o| &o.joint_type));
-        half.axis[j.index()] != [0.0; 3]
+        half.frames[j.index()].axis != [0.0; 3]
             && types.into_iter().any(JointType::has_second_axis)
             && joint
                 .frame

@@ -9,7 +9,7 @@ pub(crate) use ozols::file::text::mechanism_from_str;
 pub(crate) use ozols::geom::exact::ExactField;
 pub(crate) use ozols::geom::expr::Expr;
 pub(crate) use ozols::geom::vector::{
-    add, add_scaled, cross, cross_plane, dot, length, quarter, real, scale, sub, unit,
+    add_scaled, cross, cross_plane, dot, length, quarter, real, scale, sub, unit,
 };
 pub(crate) use ozols::model::joint_type::{Freedom, JointType};
 pub(crate) use ozols::model::mechanism::{JointId, LinkId, Mechanism, Mode, Role, StateId};

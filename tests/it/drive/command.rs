@@ -1,7 +1,6 @@
 //! `ozols drive` as its users meet it.
 
 use crate::common::*;
-mod moments;
 
 // The command.
 

@@ -1,7 +1,6 @@
 //! Assembly forces of inaccurate joints, against a twin by displacements: each joint is a spring in its constrained directions, and the
 //! links move to where the energy is least. The program uses self-stresses, so the two share no equations.
 
-use crate::common::*;
 use ozols::geom::vector::real;
 use ozols::model::mechanism::{Mechanism, StateId};
 use ozols::statics::reactions::misfit::{Misfit, Tolerances, misfit};
@@ -67,7 +66,7 @@ fn mean_forces(m: &Mechanism, samples: usize) -> Vec<f64> {
                 .map(|k| {
                     let mut row = vec![0.0; free];
                     for (link, sign) in [(j.links[0], -1.0), (j.links[1], 1.0)] {
-                        let at = 6 * usize::from(link);
+                        let at = 6 * link.index();
                         row[at + k] += sign;
                         // A turn w about the origin moves the point by w × p.
                         let [x, y, z] = *p;
@@ -93,11 +92,7 @@ fn mean_forces(m: &Mechanism, samples: usize) -> Vec<f64> {
     }
     // The frame is held, and motions of the mechanism meet a spring that is too soft to count.
     for (n, row) in stiff.iter_mut().enumerate() {
-        row[n] += if n / 6 == usize::from(frame) {
-            1e12
-        } else {
-            1e-3
-        };
+        row[n] += if n / 6 == frame.index() { 1e12 } else { 1e-3 };
     }
     let mut random = Normal(7);
     let mut sums = vec![0.0; points.len()];
