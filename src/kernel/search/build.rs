@@ -270,7 +270,7 @@ fn prove(
 }
 
 /// Returns whether every variant of a diagram is determinate in a question, with the same redundant constraints. The spaces that variants of
-/// the diagram lead to are followed layer by layer, and no others.
+/// the diagram lead to are followed layer by layer, and no others. Returns false if they are more than the budget allows.
 ///
 /// # Complexity
 /// At most that of the diagram of the question, and O(n·choices) for n pairs of a node of the diagram and a space.
@@ -287,29 +287,27 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
             &question.space.variables[layer.variable].choices,
             limits.bytes,
             &nodes,
-            Merge::new(usize::MAX, usize::MAX, Stop::Exhausted, edges),
+            Merge::new(limits.nodes, limits.bytes, Stop::Exhausted, edges),
             |_, _, _| false,
             &|| false,
             &mut |_| {},
         );
+        if merge.stop != Stop::Exhausted {
+            return false;
+        }
         let mut below = BTreeSet::new();
         for &(space, node) in &reached {
             for choice in 0..layer.choices {
-                let to = layer.edges[node as usize * layer.choices + choice];
-                let space = merge.edges[space as usize * layer.choices + choice];
-                match (space, to) {
-                    (_, DEAD) => {}
-                    (DEAD, _) => return false,
-                    both => drop(below.insert(both)),
+                let to = layer.edges[node * layer.choices + choice];
+                match merge.edges[space * layer.choices + choice] {
+                    _ if to == DEAD => {}
+                    DEAD => return false,
+                    space => drop(below.insert((space as usize, to as usize))),
                 }
             }
         }
-        let kept: Vec<usize> = below
-            .iter()
-            .map(|(space, _)| *space as usize)
-            .dedup()
-            .collect();
-        let place = |space: u32| kept.partition_point(|&k| k < space as usize) as u32;
+        let kept: Vec<usize> = below.iter().map(|(space, _)| *space).dedup().collect();
+        let place = |space: usize| kept.partition_point(|&k| k < space);
         reached = below
             .iter()
             .map(|&(space, node)| (place(space), node))
@@ -318,7 +316,5 @@ pub(in crate::search) fn has_all(question: &Question, known: &Diagram) -> bool {
         nodes.retain(&kept);
     }
     let mut ends = reached.iter();
-    ends.all(|&(space, node)| {
-        nodes.spent[space as usize].redundancy() == known.terminals[node as usize]
-    })
+    ends.all(|&(space, node)| nodes.spent[space].redundancy() == known.terminals[node])
 }

@@ -203,11 +203,8 @@ fn totals_by(question: &Question, diagram: &Diagram, kinds: Kinds) -> Option<Vec
     let count = match bits(question, diagram) {
         0..=127 => with::<u128>,
         128..=256 => with::<Wide<4>>,
-        257..=384 => with::<Wide<6>>,
-        385..=512 => with::<Wide<8>>,
-        513..=640 => with::<Wide<10>>,
-        641..=768 => with::<Wide<12>>,
-        769..=1024 => with::<Wide<16>>,
+        257..=512 => with::<Wide<8>>,
+        513..=1024 => with::<Wide<16>>,
         _ => with::<BigUint>,
     };
     count(question, diagram, kinds)

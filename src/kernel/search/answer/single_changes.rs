@@ -15,6 +15,7 @@ use crate::model::mechanism::{Joint, JointId, JointOption, Mechanism, StateId};
 use crate::redundancy::analysis::exact_field;
 use crate::redundancy::stress::stress_basis;
 use crate::search::question::cost::CostTable;
+use crate::search::reduce::self_stress_space::is_contained;
 use std::cmp::Reverse;
 
 /// Joint types that are tried in place of the mechanism's joints if the file offers nothing.
@@ -96,7 +97,7 @@ pub fn single_changes(mechanism: &Mechanism, state: StateId) -> Result<Suggestio
         let wrenches = carried.at(j);
         for (to, unloading) in changes(joint, &present, state, usual) {
             let mut columns = twists(to.as_ref().unwrap_or(&present))?;
-            if !spans(exact, &columns, &own) {
+            if !is_contained(exact.field(), &[&own, &columns]) {
                 continue;
             }
             if let Some(u) = &unloading {
@@ -163,24 +164,11 @@ fn changes(joint: &Joint, present: &JointOption, state: StateId, usual: bool) ->
         .collect()
 }
 
-fn spans(exact: &ExactField, columns: &[Vec<Residue>], own: &[Vec<Residue>]) -> bool {
-    let mut span = Echelon::new(exact.field());
-    for c in columns {
-        span.insert(c);
-    }
-    own.iter().all(|t| span.contains(t))
-}
-
 /// The rank of the wrenches' powers on some twists.
 fn gain(exact: &ExactField, wrenches: &[Vec<Residue>], twists: &[Vec<Residue>]) -> usize {
     let f = exact.field();
-    let mut span = Echelon::new(f);
-    for t in twists {
-        let power = |w: &Vec<Residue>| f.dot(w, t);
-        let powers: Vec<Residue> = wrenches.iter().map(power).collect();
-        span.insert(&powers);
-    }
-    span.rank()
+    let powers = |t: &Vec<Residue>| wrenches.iter().map(|w| f.dot(w, t)).collect::<Vec<_>>();
+    Echelon::of(f, twists.iter().map(powers)).rank()
 }
 
 /// The wrenches that each joint transmits under the self-stresses.

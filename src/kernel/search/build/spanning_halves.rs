@@ -148,7 +148,7 @@ fn known_by_one_number(field: Field, mut space: SelfStressSpace) -> SelfStressSp
 /// Returns the same space for the variables from the last to the first, and which coordinate of contours stands at each place: the first
 /// variable that reaches a coordinate is then its last one.
 fn turned(space: &SelfStressSpace) -> (SelfStressSpace, Vec<usize>) {
-    let last = space.added.len() - 1;
+    let last = space.added.len().saturating_sub(1);
     let turn = |c: &Lifetime| Lifetime {
         from: last - c.to,
         to: last - c.from,
