@@ -31,9 +31,7 @@ function nothingFound({ hopeless, wider }) {
 
 /** The wider request, with a button that goes back to the first one. */
 function askedNow(asked) {
-  const back = element("button", { type: "button" }, "Search as at first");
-  back.addEventListener("click", () => ask(null));
-  return element("p", { class: "help" }, `Searched with ${asked}. `, back);
+  return element("p", { class: "help" }, `Searched with ${asked}. `, button("Search as at first", () => ask(null)));
 }
 
 /** Forces over the stroke, where the file states loads. */

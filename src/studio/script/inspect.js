@@ -39,12 +39,6 @@ function choice(label, options, now, take) {
   return element("label", { class: "field" }, element("span", {}, label), box);
 }
 
-function button(words, act, title = null) {
-  const made = element("button", { type: "button", title }, words);
-  made.addEventListener("click", act);
-  return made;
-}
-
 /** Another name, wherever the file has it. */
 const rename = (what, id) => (to) => change({ do: "rename", what, id, to: to.trim() }).then((done) => select([{ what, id: done ? to.trim() : id }]));
 

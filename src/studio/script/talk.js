@@ -40,11 +40,7 @@ function say(words, grave = false) {
 function notice(id, words, ...buttons) {
   byId(`notice-${id}`)?.remove();
   if (words === null) return;
-  const made = buttons.map(([name, act]) => {
-    const button = element("button", { type: "button" }, name);
-    button.addEventListener("click", act);
-    return button;
-  });
+  const made = buttons.map(([name, act]) => button(name, act));
   byId("notices").append(element("div", { class: "notice", id: `notice-${id}`, role: "alert" }, element("span", {}, words), ...made));
 }
 

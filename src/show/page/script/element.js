@@ -11,6 +11,13 @@ function element(name, attributes, ...children) {
   return made;
 }
 
+/** A button and what it does. */
+function button(words, act, title = null) {
+  const made = element("button", { type: "button", title }, words);
+  made.addEventListener("click", act);
+  return made;
+}
+
 /** A text in which ids with hyphens stay in one piece. */
 const unbroken = (words) => words.split(/( )/).map((w) => (w.includes("-") ? element("span", { class: "id" }, w) : w));
 

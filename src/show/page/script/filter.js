@@ -70,9 +70,7 @@ function insteadOfNothing() {
   const parts = [element("p", {}, `No ${noun().toLowerCase()} of the ${grouped(total)} listed passes the filter.`)];
   const without = asked.map((c) => [c, countOf(asked.filter((other) => other !== c))]).filter(([, n]) => n > 0);
   for (const [c, n] of asked.length > 1 ? without : []) {
-    const button = element("button", { type: "button" }, `Without ${c.words}: ${grouped(n)}`);
-    button.addEventListener("click", () => drop(c));
-    parts.push(button, " ");
+    parts.push(button(`Without ${c.words}: ${grouped(n)}`, () => drop(c)), " ");
   }
   const wishes = asked.filter((c) => c.word).map((c) => wish(c.word)).filter(Boolean);
   for (const { id, type, names, known } of wishes) {

@@ -47,14 +47,10 @@ function figureTable(c) {
 }
 
 /** Keeps a gripper beside those that are chosen next, or lets it go. */
-function keeping(c, anew) {
-  const button = element('button', { type: 'button' }, kept === c ? 'Let it go' : 'Keep to compare');
-  button.addEventListener('click', () => {
-    kept = kept === c ? null : c;
-    anew();
-  });
-  return button;
-}
+const keeping = (c, anew) => button(kept === c ? 'Let it go' : 'Keep to compare', () => {
+  kept = kept === c ? null : c;
+  anew();
+});
 
 /** The force of a jaw over the stroke, from open to closed: work in is work out, so that it is the drive's travel by the opening's. */
 function forceChart(c, frames) {
@@ -113,13 +109,11 @@ function ideaTable(c, pick) {
 function tell(c) {
   const dialog = byId('chosen');
   const help = (words) => element('p', { class: 'help' }, words);
-  const close = element('button', { type: 'button' }, 'Close');
-  close.addEventListener('click', () => dialog.close());
   const keep = keeping(c, () => { tell(c); dialog.querySelector('button').focus(); });
   const { figure, show } = sight(c);
   if (kept && kept !== c) figure.append(help(`Compared with ${titleOf(kept)}:`), gripper(kept, titleOf(kept)));
   dialog.replaceChildren(
-    element('header', {}, element('h2', { id: 'chosen-name' }, titleOf(c)), element('div', {}, keep, ' ', close)),
+    element('header', {}, element('h2', { id: 'chosen-name' }, titleOf(c)), element('div', {}, keep, ' ', button('Close', () => dialog.close()))),
     element('div', { class: 'two' }, figure, figureTable(c)));
   const commands = element('pre');
   const command = (idea) => {

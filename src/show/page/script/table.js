@@ -12,10 +12,9 @@ function drawHead() {
   const row = element("tr", { "aria-rowindex": 1 });
   const head = (key, title, words, numeric) => {
     const sorted = view.sort.key === key;
-    const button = element("button", { type: "button", title: `Sort by ${words}` }, title);
-    button.addEventListener("click", () => sortBy(key));
     const order = sorted ? (view.sort.down ? "descending" : "ascending") : "none";
-    row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: classOf(key, numeric) }, button));
+    const sorts = button(title, () => sortBy(key), `Sort by ${words}`);
+    row.append(element("th", { scope: "col", "data-key": key, "aria-sort": order, class: classOf(key, numeric) }, sorts));
   };
   head("position", "№", "position", true);
   head("list", "changed joints", "changed joints", false);
