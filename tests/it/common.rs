@@ -171,6 +171,13 @@ pub(crate) fn all_to_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
         .for_each(|(f, w)| to_nine_digits(f, w));
 }
 
+/// The place of the first line with this text in a file, as errors name it.
+#[track_caller]
+pub(crate) fn place_of(file: &str, content: &str, line_with: &str) -> String {
+    let line = content.lines().position(|l| l.contains(line_with)).unwrap();
+    format!("{file}:{}:", line + 1)
+}
+
 /// A text with the first of one thing replaced; it must be there.
 pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");

@@ -269,12 +269,8 @@ fn bad_tables_are_refused_where_they_stand() {
         let text = small_with(from, to);
         let (code, said, errors) = run_file(&text, &[]);
         assert_eq!((code, said.as_str()), (Some(2), ""), "{to}: {errors}");
-        let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
-        assert!(
-            part.split("; ").all(|p| errors.contains(p))
-                && errors.contains(&format!("clamp.toml:{number}:")),
-            "{to}: {errors}"
-        );
+        part.split("; ").for_each(|p| has(&errors, p));
+        has(&errors, &place_of("clamp.toml", &text, line));
     }
     let (code, _, errors) = run_file("name = \"x\"", &[]);
     assert_eq!(code, Some(2));
@@ -287,19 +283,19 @@ fn bad_tables_are_refused_where_they_stand() {
 
 #[test]
 fn charts_are_written_as_svg_and_csv() {
-    let folder = tempdir().unwrap();
-    let at = folder.path().join("charts");
-    out(&["grip", "lever-gripper", "--svg", at.to_str().unwrap()]);
-    for name in ["arms", "drive-moment"] {
-        assert!(
-            fs::read_to_string(at.join(format!("{name}.svg")))
-                .unwrap()
-                .starts_with("<svg")
-        );
-        assert!(
-            fs::read_to_string(at.join(format!("{name}.csv")))
-                .unwrap()
-                .starts_with("series,x,y")
-        );
+    for [line, names, part] in cases::<3>(
+        "
+        grip lever-gripper | arms drive-moment | series,x,y
+        drive torsion-module | angles energy | disc
+        ",
+    ) {
+        let folder = tempdir().unwrap();
+        let at = folder.path().join("charts");
+        out(&format!("{line} --svg {}", at.display()));
+        let read = |file: String| fs::read_to_string(at.join(file)).unwrap();
+        for name in words(names) {
+            assert!(read(format!("{name}.svg")).starts_with("<svg"));
+            has(&read(format!("{name}.csv")), part);
+        }
     }
 }

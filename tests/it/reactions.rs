@@ -104,6 +104,12 @@ fn left_over(m: &Mechanism, list: &[JointReaction]) -> f64 {
     worst / greatest
 }
 
+pub(crate) fn greatest_force(list: &[JointReaction]) -> f64 {
+    list.iter()
+        .map(JointReaction::force_size)
+        .fold(0.0, f64::max)
+}
+
 fn solve(m: &Mechanism) -> Solution {
     Reactions::solve(m, StateId::FREE, &m.loads).unwrap()
 }
@@ -130,11 +136,7 @@ fn every_link_is_in_equilibrium_and_joints_do_no_work() {
         assert!(s.residual < 1e-10, "{name}: {}", s.residual);
         assert!(left_over(&m, &s.reactions) < 1e-10, "{name}");
         assert_eq!(s.choice == Uniqueness::Unique, s.self_stresses.is_empty());
-        let greatest = s
-            .reactions
-            .iter()
-            .map(JointReaction::force_size)
-            .fold(0.0, f64::max);
+        let greatest = greatest_force(&s.reactions);
         for r in &s.reactions {
             let joint = &m.joints[r.joint];
             for f in joint.joint_type.freedoms() {
@@ -215,7 +217,7 @@ proptest! {
         let s = solve(&m);
         let (joint, effort) = s.reactions.iter().find_map(|r| Some((r.joint, r.effort?.1))).unwrap();
         let work = work_by_differences(&m, joint, 2e-3);
-        let greatest = s.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+        let greatest = greatest_force(&s.reactions);
         prop_assert!((effort + work).abs() < 1e-6 * (work.abs() + greatest * s.size), "{}: {effort} {work}", m.name);
     }
 
@@ -229,7 +231,7 @@ proptest! {
         weight.loads.forces.clear();
         force.loads.gravity = None;
         let (a, b) = (solve(&weight), solve(&force));
-        let greatest = both.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+        let greatest = greatest_force(&both.reactions);
         for ((x, y), z) in a.reactions.iter().zip(&b.reactions).zip(&both.reactions) {
             for i in 0..3 {
                 prop_assert!((x.force[i] + y.force[i] - z.force[i]).abs() < 1e-8 * greatest);
@@ -273,7 +275,7 @@ proptest! {
         }
         m.loads.gravity = m.loads.gravity.as_ref().map(|g| by(g, [0; 3]));
         let after = solve(&m);
-        let greatest = before.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+        let greatest = greatest_force(&before.reactions);
         for (x, y) in before.reactions.iter().zip(&after.reactions) {
             for i in 0..3 {
                 prop_assert!((x.force[i] - y.force[i]).abs() < 1e-7 * greatest, "{} {:?} {:?}", m.name, x, y);

@@ -6,12 +6,9 @@ use crate::common::*;
 /// Asserts that a file is refused at the line where `line_with` first stands, with these words.
 pub(super) fn bad_file(name: &str, content: &str, line_with: &str, parts: &[&str]) {
     let (_folder, path) = written(name, content);
-    let line = content.lines().position(|l| l.contains(line_with)).unwrap() + 1;
+    let place = place_of(name, content, line_with);
     for command in ["check", "analyze", "search"] {
-        has(
-            &refused(&[command, path], parts),
-            &format!("{name}:{line}:"),
-        );
+        has(&refused(&[command, path], parts), &place);
     }
 }
 

@@ -181,11 +181,7 @@ fn bad_tables_are_refused_where_they_stand() {
         let text = small_with(from, to);
         let (code, said, errors) = run_file(&text, &[]);
         assert_eq!((code, said.as_str()), (Some(2), ""), "{to}: {errors}");
-        let number = text.lines().position(|l| l.contains(line)).unwrap() + 1;
-        assert!(
-            errors.contains(part) && errors.contains(&format!("turner.toml:{number}:")),
-            "{to}: {errors}"
-        );
+        has_all(&errors, &[part, &place_of("turner.toml", &text, line)]);
     }
     let (code, _, errors) = run_file("name = \"x\"", &[]);
     assert_eq!(code, Some(2));
@@ -253,23 +249,4 @@ fn programmes_are_read_step_by_step() {
     );
     near(steps[1]["duration"].real(), 0.25, 0.0);
     near(steps[3]["duration"].real(), 1.0, 0.0);
-}
-
-#[test]
-fn charts_are_written_as_svg_and_csv() {
-    let folder = tempdir().unwrap();
-    let at = folder.path().join("charts");
-    out(&["drive", "torsion-module", "--svg", at.to_str().unwrap()]);
-    for name in ["angles", "energy"] {
-        assert!(
-            fs::read_to_string(at.join(format!("{name}.svg")))
-                .unwrap()
-                .starts_with("<svg")
-        );
-        assert!(
-            fs::read_to_string(at.join(format!("{name}.csv")))
-                .unwrap()
-                .contains("disc")
-        );
-    }
 }

@@ -73,19 +73,12 @@ fn check_doubts_what_is_likely_a_slip() {
     ) {
         let file = four_bar_with(from, to);
         let (said, warned) = checked(&file);
-        for p in parts.split(" & ") {
-            assert!(warned.contains(p), "{to}: no {p:?} in: {warned}");
-        }
+        parts.split(" & ").for_each(|part| has(&warned, part));
         assert!(
             warned.starts_with("warning: ") && said.contains("warning"),
             "{warned}"
         );
-        let at = file.find(line).unwrap();
-        let n = file[..at].matches('\n').count() + 1;
-        assert!(
-            warned.contains(&format!("mine.toml:{n}:")),
-            "no line {n} in: {warned}"
-        );
+        has(&warned, &place_of("mine.toml", &file, line));
     }
 }
 

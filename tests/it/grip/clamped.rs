@@ -1,6 +1,7 @@
 //! The grip's contact forces as loads of the mechanism: statics of the clamped state, and ranking under them.
 
 use crate::common::*;
+use crate::reactions::greatest_force;
 mod ranked;
 mod refused;
 
@@ -184,11 +185,7 @@ fn reactions_are_linear_in_the_payload_and_vanish_with_it() {
     for i in 0..one.study.rows.len() {
         let of = |g: &Gripping| solve(g, &g.study.rows[i]);
         let (a, b, zero) = (of(&one), of(&three), of(&none));
-        let greatest = b
-            .reactions
-            .iter()
-            .map(JointReaction::force_size)
-            .fold(0.0, f64::max);
+        let greatest = greatest_force(&b.reactions);
         assert!(greatest > 1.0);
         for ((x, y), z) in a.reactions.iter().zip(&b.reactions).zip(&zero.reactions) {
             // The direction of the worst case is searched for, to some digits.
@@ -224,11 +221,7 @@ fn loads_follow_the_gripper_in_the_files_axes() {
     let (a, b) = (clamped(&before), clamped(&m));
     for (x, y) in a.study.rows.iter().zip(&b.study.rows) {
         let (p, q) = (solve(&a, x), solve(&b, y));
-        let greatest = p
-            .reactions
-            .iter()
-            .map(JointReaction::force_size)
-            .fold(0.0, f64::max);
+        let greatest = greatest_force(&p.reactions);
         for (r, s) in p.reactions.iter().zip(&q.reactions) {
             for k in 0..3 {
                 assert!(

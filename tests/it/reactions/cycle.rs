@@ -2,6 +2,7 @@
 
 use super::expr;
 use crate::common::*;
+use crate::reactions::greatest_force;
 use ozols::model::loads::{Inertia, MassProperties, Stroke};
 use ozols::motion::pose::Pose;
 use ozols::statics::cycle::statics;
@@ -169,11 +170,7 @@ fn the_drive_feeds_the_energy_of_spatial_mechanisms() {
             let e = [-2.0, -1.0, 1.0, 2.0].map(|k| energies(&m, &c, at + k * h, speed));
             let gain = (8.0 * (e[2] - e[1]) - (e[3] - e[0])) / (12.0 * h) * speed;
             let power = effort(&s.reactions) * speed * unit;
-            let greatest = s
-                .reactions
-                .iter()
-                .map(JointReaction::force_size)
-                .fold(0.0, f64::max);
+            let greatest = greatest_force(&s.reactions);
             assert!(
                 (power - gain).abs() < 1e-5 * (power.abs() + greatest * s.size),
                 "{name} at {at}: {power} {gain}"

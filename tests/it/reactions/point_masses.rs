@@ -3,11 +3,12 @@
 
 use super::{built_in, expr, vector};
 use crate::common::*;
+use crate::reactions::greatest_force;
 use ozols::model::loads::{ExternalForce, Inertia, MassProperties, Stroke};
 use ozols::model::mechanism::{Joint, Link};
 use ozols::statics::cycle::statics;
 use ozols::statics::reactions::cycle::{Cycle, cycle};
-use ozols::statics::reactions::{JointReaction, Solution, Uniqueness};
+use ozols::statics::reactions::{Solution, Uniqueness};
 use proptest::prelude::*;
 
 /// Masses `[kg]` at points in the file's unit.
@@ -107,7 +108,7 @@ proptest! {
         prop_assert_eq!(a.positions.len(), 3);
         for ((_, x), (_, y)) in solved(&a).zip(solved(&b)) {
             prop_assert_eq!((x.choice, y.choice), (Uniqueness::Unique, Uniqueness::Unique));
-            let greatest = x.reactions.iter().map(JointReaction::force_size).fold(0.0, f64::max);
+            let greatest = greatest_force(&x.reactions);
             for (r, s) in x.reactions.iter().zip(&y.reactions) {
                 prop_assert_eq!(r.joint, s.joint);
                 for i in 0..3 {

@@ -26,8 +26,7 @@ fn bad_loads_are_refused_at_their_line() {
         let text = changed(super::shears(), from, to);
         let (code, _, said) = run_on("statics", "bad.toml", &text, &[]);
         assert_eq!(code, Some(2), "{to}: {said}");
-        let line = text.lines().position(|l| l.contains(line)).unwrap() + 1;
-        has(&said, &format!("bad.toml:{line}:"));
+        has(&said, &place_of("bad.toml", &text, line));
         parts.split(" & ").for_each(|part| has(&said, part));
     }
 }
