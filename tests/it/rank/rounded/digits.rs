@@ -180,9 +180,9 @@ fn directions_that_are_chosen_stay_exact_beside_long_lengths() {
         assert_eq!(u(chosen).frames[0].axis, [0.0; 3], "{chosen}");
     }
     // Rounded from a length of 1.
-    assert_eq!(u("[0.71, 0.71, 0]").axis[0], [0.005, 0.005, 0.0]);
+    assert_eq!(u("[0.71, 0.71, 0]").frames[0].axis, [0.005, 0.005, 0.0]);
     // One number of places for all three.
-    assert_eq!(u("[0.866, 0.5, 0]").axis[0], [5e-4, 5e-4, 0.0]);
+    assert_eq!(u("[0.866, 0.5, 0]").frames[0].axis, [5e-4, 5e-4, 0.0]);
 }
 
 #[test]
@@ -413,5 +413,8 @@ fn importers_state_what_the_digits_of_their_formats_say() {
     let sdf = "<sdf version='1.9'><model name='m'><link name='a'/><link name='b'><pose>0.12345 0 0 0 0 0</pose></link>
         <joint name='w' type='fixed'><parent>world</parent><child>a</child></joint>
         <joint name='p' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint></model></sdf>";
-    assert_eq!(of_robot("r.sdf", sdf).unwrap().point[0], [5e-6, 0.0, 0.0]);
+    assert_eq!(
+        of_robot("r.sdf", sdf).unwrap().frames[0].point,
+        [5e-6, 0.0, 0.0]
+    );
 }
