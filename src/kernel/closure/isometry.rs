@@ -115,7 +115,7 @@ pub struct Isometry {
     along: Vector,
 }
 
-/// The directions of each joint's frame in a mechanism, along which axes of turns may lie.
+/// Returns the directions of the frame of each joint, along which axes of turns may lie.
 #[must_use]
 pub(crate) fn frame_directions(mechanism: &Mechanism) -> Vec<[ExactVector; 3]> {
     let of = |j: &Joint| {
