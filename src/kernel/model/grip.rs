@@ -39,15 +39,6 @@ pub enum PartMass {
 }
 
 impl PartMass {
-    /// Returns the length of the part, if it is stated. `[m]`
-    #[must_use]
-    pub fn part_length(&self) -> Option<f64> {
-        match *self {
-            PartMass::Constant(_) => None,
-            PartMass::Cylinder { length, .. } => Some(length),
-        }
-    }
-
     /// Returns the mass of a part of this diameter. `[kg]`
     #[must_use]
     pub fn of(&self, diameter: f64) -> f64 {
