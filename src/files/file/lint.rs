@@ -59,7 +59,7 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     })
 }
 
-/// What was found, each with the path of the item it concerns.
+/// The warnings found, each with the path of the item it concerns.
 pub(crate) type Found = Vec<(DocumentPath, WarningKind)>;
 
 fn find(file: &MechanismFile, m: &Mechanism) -> Found {

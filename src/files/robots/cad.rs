@@ -4,7 +4,6 @@
 
 pub(crate) mod archive;
 mod meet;
-pub(crate) mod outline;
 pub(crate) mod retype;
 
 use crate::geom::rigid::RigidMotion;

@@ -1,6 +1,5 @@
 //! FreeCAD documents with assemblies, `.FCStd`: the parts of an assembly at their places, and its joints.
 
-mod brep;
 mod distance;
 mod objects;
 mod reference;

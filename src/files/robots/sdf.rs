@@ -1,8 +1,7 @@
 //! Reading, fixing and writing SDF: models with links, frames and joints, places relative to each other, loops closed by joints
 //! as drawn.
 
-pub(super) mod fix;
-mod include;
+pub(super) mod include;
 pub(super) mod joints;
 pub(super) mod scene;
 pub(super) mod write;

@@ -1,13 +1,11 @@
 //! Reading, fixing and writing URDF: a tree of links and joints, with mimic joints, transmissions and the usual loop extensions.
 
-pub(super) mod fix;
-mod gazebo;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::{ball_constraint, couple, leave_out, named};
+use crate::robots::additions::{ball_constraint, couple, leave_out, named, read_gazebo};
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::warning::{Read, bad_value, known, unknown_name};
@@ -52,7 +50,7 @@ pub(crate) fn read(
             _ => unknown.push(e),
         }
     }
-    gazebo::read(root, &mut robot)?;
+    read_gazebo(root, &mut robot)?;
     for e in root.named("ros2_control") {
         controlled(e, &mut robot)?;
     }

@@ -54,7 +54,7 @@ pub(super) fn expand(document: &mut Document, root: usize, read: Reader<'_>) -> 
 }
 
 /// Returns true if the version is before 1.5; 1.11 comes after 1.9.
-pub(super) fn is_old(root: Element<'_>) -> bool {
+pub(crate) fn is_old(root: Element<'_>) -> bool {
     let version = root.attribute("version").and_then(|v| {
         let (major, minor) = v.trim().split_once('.').unwrap_or((v, "0"));
         Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))
