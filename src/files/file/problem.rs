@@ -266,7 +266,7 @@ pub struct Warnings {
     pub file: String,
     /// Its text.
     pub text: String,
-    /// They, in order of the file where known.
+    /// The warnings, in order of the file where known.
     pub warnings: Vec<Warning>,
 }
 

@@ -33,7 +33,7 @@ fn said<'a>(e: Element<'a>, tag: &str) -> Option<&'a str> {
     found.filter(|t| !t.is_empty())
 }
 
-/// Couples two joints, the leader first, as an element says, unless another element has said the same.
+/// Couples two joints, the leader first, unless another element couples them in the same way.
 pub(crate) fn couple(e: Element<'_>, joints: [&str; 2], ratio: f64, robot: &mut Robot) {
     let same = |c: &Ratio| {
         let [a, b] = c.joints.each_ref().map(String::as_str);
@@ -274,7 +274,7 @@ fn add_joints<'a>(
     for &e in joints {
         let first = robot.joints.len();
         joint(e, "", &scene, size, robot)?;
-        // What holds a link to the world is no loop.
+        // A joint between a link and the world closes no loop.
         let closes = !names_world(e);
         robot.joints[first..]
             .iter_mut()

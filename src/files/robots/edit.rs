@@ -23,7 +23,7 @@ pub(crate) struct Edits<'a> {
     origin: &'a Origin,
     /// File, what is replaced there, and by what.
     list: Vec<(usize, Range<usize>, String)>,
-    /// Lines to stand as the last children of an element.
+    /// Lines to insert as the last children of an element.
     children: BTreeMap<usize, Vec<String>>,
     names: Names,
 }
@@ -139,7 +139,7 @@ impl<'a> Edits<'a> {
                 Some(span.clone()),
             ));
         }
-        // Stable: what stands at one place keeps its order.
+        // The sort is stable: edits at one place keep their order.
         self.list.sort_by_key(|(_, span, _)| span.start);
         let (text, mut out, mut at) = (&sources[0].text, String::new(), 0);
         for (_, span, by) in &self.list {

@@ -28,7 +28,7 @@ pub(crate) fn read(
     for e in root.named("link") {
         link(e, &mut robot)?;
     }
-    // Every reader knows the world, and takes what hangs on it for fixed.
+    // Every reader knows the world and treats it as fixed.
     let on_world = |j: Element<'_>| {
         let parent = j.child("parent");
         parent.is_some_and(|p| p.attribute("link") == Some("world"))
@@ -57,7 +57,7 @@ pub(crate) fn read(
     for e in root.named("transmission") {
         transmission(e, &mut robot);
     }
-    // Whether they could hold anything depends on the names of all links and joints.
+    // The names of all links and joints decide whether they could constrain anything.
     for e in unknown {
         leave_out(e, None, &mut robot);
     }
@@ -100,7 +100,7 @@ fn transmission(e: Element<'_>, robot: &mut Robot) {
             None => robot.report.drop("transmission", Some(j)),
         }
     }
-    // More joints than actuators are coupled, unless they are said to follow one another.
+    // If there are more joints than actuators, they are coupled, unless they follow one another.
     let follows = |j: &String| robot.couplings.iter().any(|c| c.joints[1] == *j);
     let named = named(e, None, robot).into_iter().filter(|j| !follows(j));
     let joints = named
@@ -288,7 +288,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 
 /// Returns the limits of a joint, if it has any.
 fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
-    // What is beyond all numbers that are read, 1e16 say, is no limit.
+    // A number beyond the allowed range, such as 1e16, means no limit.
     let one = |k| match e.attribute(k).map(str::parse::<f64>) {
         Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
         _ => Ok(e.numbers::<1>(k)?.map_or(0.0, |[x]| x)),

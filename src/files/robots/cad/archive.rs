@@ -8,7 +8,7 @@ use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-/// What archives begin with.
+/// The first bytes of an archive.
 const MAGIC: &[u8] = b"PK\x03\x04";
 const REMEDY: &str = "save the document again with FreeCAD";
 
@@ -50,7 +50,7 @@ impl Archive {
             Err(e) => return Err(self.fail(&e)),
         };
         let mut out = Vec::new();
-        // What a header says of the size need not be so.
+        // The size in a header may be wrong.
         let limit = MAX_BYTES as u64 + 1;
         found
             .take(limit)

@@ -99,7 +99,7 @@ fn unknown(kinds: [Option<ShapeKind>; 2], found: Held) -> Held {
     let [z, line] = frames.map(|m| m.rotation.map(|row| row[2]));
     let swap = kinds[1] == Some(ShapeKind::Plane);
     if length(cross(z, line)) > 1.0 - SINE {
-        // A plane and a cylinder, the first of the two as the plane where nothing says otherwise.
+        // A plane and a cylinder; the first is the plane by default.
         return Held {
             holds: Holds::LineInPlane(height(frames, swap)),
             swap,
@@ -393,7 +393,7 @@ fn geometry_line<'a>(text: &'a str, heading: &str, n: usize) -> Option<&'a str> 
     if n == 0 || n > count {
         return None;
     }
-    // Simple kinds take a line; others take more, and where one stands before, lines cannot be counted.
+    // Simple kinds take one line, others more, so lines after another kind cannot be counted.
     let mut lines = body.lines();
     for _ in 1..n {
         let kind: usize = lines.next()?.split_whitespace().next()?.parse().ok()?;

@@ -233,7 +233,7 @@ fn joint(j: usize, id: String, c: &Content<'_>, ids: &BTreeMap<usize, String>) -
 /// Last words of the names of end effectors.
 const NAMES: &str = "foot feet toe hand palm tool tool0 tcp ee eef effector flange tip \
     fingertip pad platform gripper wheel";
-/// Words behind them that say nothing.
+/// Words that may follow them.
 const IDLE: &str = "link body frame left right l r front rear";
 
 pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, ProblemKind> {
@@ -281,7 +281,7 @@ fn meant(robot: &Robot, bodies: &Bodies, joints: &[usize], frame: usize) -> Vec<
     let named = (0..n).filter(|&l| moves(bodies.of[l]) && is_effector(&robot.links[l]));
     let named: Vec<usize> = named.map(|l| bodies.of[l]).collect();
     let floating = joints.iter().map(|&j| &robot.joints[j]);
-    // What is driven in all ways is led, and leads nowhere.
+    // A body that is driven in all six freedoms is an input, not an output.
     let floating = floating.filter(|p| p.joint_type.freedoms().len() == 6 && !p.drive);
     let floating = floating.flat_map(|p| p.links.map(|l| bodies.of[l]));
     let floating: Vec<usize> = floating.filter(|&b| b != frame).collect();

@@ -12,7 +12,7 @@ const LIMITS: (usize, usize) = (16, 1000);
 /// Included files that are not mechanisms, and that few users have: Gazebo's own light and floor.
 const SCENERY: [&str; 2] = ["model://sun", "model://ground_plane"];
 
-/// What became of the includes.
+/// The result of expanding the includes.
 pub(super) struct Expanded {
     /// For each file, true if it is older than SDF 1.5.
     pub(super) old: Vec<bool>,
