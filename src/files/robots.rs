@@ -29,7 +29,7 @@ use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::release::{Release, added};
 use crate::robots::cad::retype;
 use crate::robots::description::Part;
-use crate::robots::edit::{Edits, Freeing};
+use crate::robots::edit::{Edits, Freeing, comment_out, free_sdf, free_urdf};
 use crate::robots::mechanism::series_of_single_joints::comment;
 use crate::robots::warning::unsupported;
 use std::collections::BTreeMap;
@@ -97,8 +97,8 @@ fn in_series(imported: &Imported, releases: &[(Release, String)]) -> Result<Stri
     }
     let (free, uncouple): (Free, Uncouple) = match imported.format.word {
         "mjcf" => (mjcf::fix::free, mjcf::fix::uncouple),
-        "urdf" => (urdf::fix::free, urdf::fix::uncouple),
-        _ => (sdf::fix::free, urdf::fix::uncouple),
+        "urdf" => (free_urdf, comment_out),
+        _ => (free_sdf, comment_out),
     };
     let mut all: Vec<Freeing<'_>> = Vec::new();
     for (&part, list) in &freed {

@@ -34,7 +34,7 @@ pub fn costs_from_str(
     out.unless(spec).map_err(located)
 }
 
-/// What costs that are no joint's are called.
+/// The names of costs that do not belong to a joint type.
 const OTHERS: [&str; 4] = ["change", "driven", "link", "harmful"];
 
 pub(crate) fn costs(

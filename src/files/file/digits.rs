@@ -1,6 +1,6 @@
-//! Decimals as the text has them: a second look at it, where the first took zeros off their ends.
+//! Decimals that end with zeros, which the readers of TOML and JSON drop.
 //!
-//! The readers of TOML and JSON give doubles, and 0.49400 as a double is 0.494: it says less of how well it is known.
+//! As a double 0.49400 is 0.494, which seems to be known less precisely.
 
 use crate::file::locate::{Document, DocumentPath};
 use serde_json::Value;
@@ -35,7 +35,7 @@ pub(crate) fn kept(text: &str, json: bool, all: &Value) -> Option<String> {
             let span = document.span(path)?;
             let written = text.get(span.clone())?.trim().replace('_', "");
             let mantissa = written.split(['e', 'E']).next().unwrap_or("");
-            // Only what is this number: a path that is not there gives what is round it.
+            // A missing path has the span of what is around it, which is not this number.
             if mantissa.contains('.') && mantissa.ends_with('0') && written.parse() == Ok(x) {
                 found.push((span, written));
             }

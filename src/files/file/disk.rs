@@ -65,10 +65,10 @@ fn too_long(limit: usize) -> io::Error {
     )
 }
 
-/// A file, by whatever name.
+/// A file, identified independently of its name where possible.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum FileId {
-    /// Its device and its number there, which systems that are no Unix do not tell.
+    /// Its device and inode number, which only Unix systems report.
     Number(u64, u64),
     /// Its whole path, without links.
     Path(PathBuf),
@@ -114,7 +114,7 @@ pub fn note_open(file: &Metadata) {
     read().extend(number(file));
 }
 
-/// Returns whether a file was read, by whatever name.
+/// Returns true if a file was read, under this or another name.
 #[must_use]
 pub fn was_read(path: &Path) -> bool {
     let read = read();
@@ -134,7 +134,7 @@ pub fn is_at(file: &Metadata, path: &Path) -> bool {
     id.is_some() && id == fs::metadata(path).ok().and_then(|m| number(&m))
 }
 
-/// Removes the files of a folder whose names `are_ours` says are such files, and that nobody holds.
+/// Removes the files of a folder that `are_ours` accepts by name and that no process has locked.
 pub fn clean_leftovers(folder: &Path, are_ours: impl Fn(&OsStr) -> bool) {
     let Ok(all) = fs::read_dir(folder) else {
         return;
@@ -142,7 +142,7 @@ pub fn clean_leftovers(folder: &Path, are_ours: impl Fn(&OsStr) -> bool) {
     let ours = all.flatten().filter(|f| are_ours(&f.file_name()));
     for file in ours.filter(|f| f.file_type().is_ok_and(|t| t.is_file())) {
         let path = file.path();
-        // A file system without locks keeps them: nobody can tell whose they are.
+        // A file system without locks keeps them, because their owner is unknown.
         let held = OpenOptions::new().write(true).open(&path);
         if held.is_ok_and(|f| f.try_lock().is_ok()) {
             let _ = fs::remove_file(path);

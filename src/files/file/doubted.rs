@@ -139,7 +139,7 @@ fn faces(of: &JointType) -> bool {
 
 /// Joints nearer to special than this, in radians and sizes of the mechanism, were hardly meant to miss it.
 const NEARLY: f64 = 1e-4;
-/// Pairs of joints told of.
+/// Maximum number of pairs of joints reported.
 const TOLD: usize = 5;
 
 /// Returns the doubtful values.
@@ -152,11 +152,11 @@ pub(super) fn doubts(m: &Mechanism) -> Vec<WarningKind> {
         out.push(message.into());
     }
     for state in m.state_ids() {
-        // Why there is no verdict is for `ozols analyze` to say.
+        // `ozols analyze` reports why there is no verdict.
         let Ok(found) = verdict(m, state) else {
             continue;
         };
-        // What is meant has mostly the figures of what is written; only others are doubtful.
+        // Only figures that differ between the intended and the written geometry are doubtful.
         if !found.agrees() {
             out.push(of_verdict(&found));
         }

@@ -59,7 +59,7 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
     })
 }
 
-/// What was found, each with the path of the item it concerns.
+/// The warnings found, each with the path of the item it concerns.
 pub(crate) type Found = Vec<(DocumentPath, WarningKind)>;
 
 fn find(file: &MechanismFile, m: &Mechanism) -> Found {
@@ -149,7 +149,7 @@ fn lengths(file: &MechanismFile, m: &Mechanism, out: &mut Found) {
     }
     let before = out.len();
     places(m, across, out);
-    // What is told of a pair with its line need not be told again.
+    // A pair reported with its line is not reported again.
     let told = out.len() > before;
     let rounded = doubts(m).into_iter();
     let rounded = rounded.filter(|k| !(told && matches!(k, WarningKind::NearlySpecial { .. })));

@@ -1,4 +1,4 @@
-//! Where in the text an item stands.
+//! The place of an item in the text.
 
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
@@ -11,7 +11,7 @@ enum Step {
     Key(String),
     /// A place in a list.
     Index(usize),
-    /// A key of a table, meant is the key itself rather than its value.
+    /// A key of a table, for the place of the key itself instead of its value.
     Name(String),
 }
 

@@ -10,7 +10,7 @@ use std::fmt::{self, Display};
 use std::ops::Range;
 use thiserror::Error;
 
-/// What is wrong, in words that end with the remedy. What a program tells apart has a variant of its own.
+/// A problem, as a message that ends with the remedy. Kinds that callers distinguish have separate variants.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 #[allow(
@@ -59,10 +59,10 @@ impl ProblemKind {
     }
 }
 
-/// Something found in a text, and its place.
+/// A problem or warning and its place in a text.
 #[derive(Debug, Clone)]
 pub struct Located<K> {
-    /// What was found.
+    /// The problem or warning.
     pub kind: K,
     /// Bytes of the text it concerns, where known.
     pub span: Option<Range<usize>>,
@@ -209,7 +209,7 @@ pub(crate) fn suggestion(word: &str, known: &str) -> String {
     }
 }
 
-/// What is doubtful, in words that end with the remedy. What a program tells apart has a variant of its own.
+/// A warning, as a message that ends with the remedy. Kinds that callers distinguish have separate variants.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 #[allow(
@@ -266,7 +266,7 @@ pub struct Warnings {
     pub file: String,
     /// Its text.
     pub text: String,
-    /// They, in order of the file where known.
+    /// The warnings, in order of the file where known.
     pub warnings: Vec<Warning>,
 }
 

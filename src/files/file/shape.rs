@@ -1,7 +1,7 @@
-//! Lists that are too long or too short, and unknown keys. The schema says what there may be, and this module checks all of it.
+//! Checks a document against the schema: lists that are too long or too short, and unknown keys.
 //!
-//! The deserializer of TOML ignores the values that a list has too many, and that of JSON calls them "trailing characters". Both
-//! end at the first unknown key.
+//! The TOML deserializer ignores the extra values of a list, and the JSON one calls them "trailing characters". Both stop at the
+//! first unknown key.
 
 use crate::file::schema::json_schema;
 use crate::file::{Finding, Findings, Place, unknown_word};
@@ -18,7 +18,7 @@ pub(crate) fn wrong_shapes(document: &Value) -> Vec<Finding> {
     out.into_findings()
 }
 
-/// Visits a value by what its schema says of it; `owner` names the last thing with an id that it is part of.
+/// Checks a value against its schema; `owner` names the innermost item with an id around it.
 fn visit(schema: &Value, value: &Value, owner: &str, at: &Place<'_>) {
     let all = alternatives(schema);
     match value {

@@ -191,7 +191,7 @@ fn explain(out: &mut String, property: &Value, inner: &Value, path: &str) {
         text = format!("{text} {advice}");
     }
     comment(out, &text);
-    // Conventions of a table, such as its units, stand with its definition.
+    // Conventions of a table, such as its units, are in its definition.
     let convention = inner["description"]
         .as_str()
         .filter(|d| d.contains("in the file's unit") && inner.get("properties").is_some());
@@ -268,7 +268,7 @@ fn put(decor: &mut Decor, default: &str, words: &str) {
     let blank = there.rfind("\n\n").map(|i| i + 2);
     let lead = there.len() - there.trim_start_matches(['\n', '\r']).len();
     let (above, own) = there.split_at(blank.unwrap_or(0).max(lead));
-    // Our words and the file's are told apart by an empty comment.
+    // An empty comment separates added comments from those of the file.
     let between = if own.starts_with('#') { "#\n" } else { "" };
     decor.set_prefix(format!("{above}{words}{between}{own}"));
 }

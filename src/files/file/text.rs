@@ -84,7 +84,7 @@ pub fn read<T>(
     if let Some(Ok(kept)) = digits::kept(text, json, &values).map(|text| parse(&text)) {
         file = kept;
     }
-    // Written out they are no TOML and no JSON: only what is escaped can hold any.
+    // TOML and JSON allow control characters only as escapes.
     let controls = if text.contains('\\') {
         controls(&file)
     } else {

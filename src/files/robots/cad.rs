@@ -4,7 +4,6 @@
 
 pub(crate) mod archive;
 mod meet;
-pub(crate) mod outline;
 pub(crate) mod retype;
 
 use crate::geom::rigid::RigidMotion;
@@ -49,7 +48,7 @@ impl Connection {
     }
 }
 
-/// Parts and joints; part 0 is what stands still.
+/// Parts and joints; part 0 is the ground.
 #[derive(Debug, Clone)]
 pub(crate) struct Assembly {
     pub(crate) name: String,
@@ -67,7 +66,7 @@ impl Assembly {
         robot.assembly = true;
         robot.options = &OPTIONS;
         let tied = self.tied(&mut robot);
-        // Parts that float are no links.
+        // Floating parts do not become links.
         let mut link = vec![None; self.parts.len()];
         for (p, (name, place)) in self.parts.iter().enumerate().filter(|(p, _)| tied[*p]) {
             link[p] = Some(robot.link(name, *place));
@@ -149,7 +148,7 @@ impl Assembly {
         robot.joints.push(part);
     }
 
-    /// Says where frames do not meet, and what is right at this pose only.
+    /// Reports frames that do not meet, and joints that are valid at this pose only.
     fn tell(&self, c: &Connection, part: &Part, m: &Meeting, options: &Options, robot: &mut Robot) {
         let element = c.label();
         if let Some(apart) = part.misfit.filter(|a| self.is_open(*a)) {
@@ -213,7 +212,7 @@ fn part(
         JointType::Spherical => 0.0,
         _ => apart.angle(),
     };
-    // As the file has it a joint stands at one place; closed, each part keeps its own frame.
+    // By default a joint is at its first frame; with `assemble`, each part keeps its own frame.
     let far = if options.assemble { &m.far } else { &m.near };
     let sides = [
         places[links[0]].inverse().then(&m.near),
@@ -312,7 +311,7 @@ pub(crate) enum Holds {
     PointLine(f64),
     /// The distance of the two lines along z, which are parallel.
     LineLine(f64),
-    /// The same, and nothing slides along them.
+    /// The same, without translation along them.
     Hinges(f64),
     /// Radii of I's and J's gear; the second is negative for a belt.
     Gear([f64; 2]),
@@ -322,7 +321,7 @@ pub(crate) enum Holds {
     Screw(f64),
 }
 
-/// Distances below this are none.
+/// Distances below this count as zero.
 const NONE: f64 = 1e-9;
 
 impl Holds {

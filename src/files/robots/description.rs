@@ -37,7 +37,7 @@ pub(crate) struct Part {
     pub(in crate::robots) drive: bool,
     /// Whether an actuator moves it by a tendon, which others may share.
     pub(in crate::robots) pulled: bool,
-    /// Whether it closes a loop by what the file says; such joints join the tree last.
+    /// Whether it closes a loop according to the file; such joints join the tree last.
     pub(in crate::robots) closes: bool,
     /// Value of the one freedom in the pose drawn, subtracted from values given from outside.
     pub(in crate::robots) zero: f64,
@@ -60,7 +60,7 @@ impl Part {
         let (Some((low, high)), [value]) = (self.limits, &self.values[..]) else {
             return None;
         };
-        // Limits are often where the joint stands.
+        // A joint is often at one of its limits.
         let (at, slack) = (value + moved, 1e-6 * (high - low).max(1e-3));
         (!(low - slack..=high + slack).contains(&at)).then_some([at, low, high])
     }
@@ -160,7 +160,7 @@ pub(crate) struct Ratio {
     pub(in crate::robots) element: String,
     /// That element.
     pub(in crate::robots) said_by: usize,
-    /// Whether it says that gears make it.
+    /// Whether gears make it, according to the file.
     pub(in crate::robots) gear: bool,
 }
 
@@ -207,7 +207,7 @@ pub(crate) struct Robot {
     pub(in crate::robots) unit: Unit,
     /// The accuracy of places, in its unit and in radians, if it is better than the digits of its numbers.
     pub(in crate::robots) known_to: Option<[f64; 2]>,
-    /// Whether a joint has freedoms that are right at this pose only.
+    /// Whether a joint has freedoms that are valid at this pose only.
     pub(in crate::robots) here_only: bool,
     /// Whether it is an assembly of a CAD program: joints have one of a few types, and fixed joints of a loop are joints like
     /// others; else what is fixed is one body.

@@ -1,9 +1,12 @@
 //! Edits of a description by spans of its text. Everything else stays unchanged, byte for byte.
 
+use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::Vector;
 use crate::robots::description::Part;
 use crate::robots::description::origin::Origin;
-use crate::robots::mechanism::series_of_single_joints::Names;
+use crate::robots::description::physical::Light;
+use crate::robots::mechanism::series_of_single_joints::{Names, comment, escape, numbers};
+use crate::robots::sdf::include::is_old;
 use crate::robots::warning::{Read, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
@@ -20,7 +23,7 @@ pub(crate) struct Edits<'a> {
     origin: &'a Origin,
     /// File, what is replaced there, and by what.
     list: Vec<(usize, Range<usize>, String)>,
-    /// Lines to stand as the last children of an element.
+    /// Lines to insert as the last children of an element.
     children: BTreeMap<usize, Vec<String>>,
     names: Names,
 }
@@ -136,7 +139,7 @@ impl<'a> Edits<'a> {
                 Some(span.clone()),
             ));
         }
-        // Stable: what stands at one place keeps its order.
+        // The sort is stable: edits at one place keep their order.
         self.list.sort_by_key(|(_, span, _)| span.start);
         let (text, mut out, mut at) = (&sources[0].text, String::new(), 0);
         for (_, span, by) in &self.list {
@@ -160,4 +163,154 @@ impl<'a> Edits<'a> {
 /// Returns the end of an element.
 pub(crate) fn end(e: Element<'_>) -> usize {
     e.node().close.end.max(e.node().span.end)
+}
+
+/// Gives joints freedoms. Inserted joints come before the joint: its child, its name and its followers stay.
+pub(crate) fn free_urdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
+    let light = Light::in_description(&origin.document).urdf();
+    for &(part, e, freed) in all {
+        // A loop's first link has the place of the loop in its own attributes, a joint in an element of its own.
+        let (tag, at) = match e.name() {
+            "joint" => ("parent", e.child("origin")),
+            _ => ("link1", e.child("link1")),
+        };
+        let Some(end) = e.child(tag) else {
+            return Err(e.unsupported("it has no end that can be changed", "choose another joint"));
+        };
+        let frame = origin.places[part.links[0]].then(&part.sides[0]);
+        let mut from = end.required("link")?.to_owned();
+        let mut place = at.map_or(String::new(), origin_of);
+        let mut lines = Vec::new();
+        for (slides, direction, why) in freed {
+            let (kind, word, limit) = match slides {
+                true => ("prismatic", "slide", LIMIT),
+                false => ("continuous", "turn", ""),
+            };
+            let between = edits.name(&format!("{}_{word}_link", part.id));
+            let name = edits.name(&format!("{}_{word}", part.id));
+            lines.push(format!("<!-- {why} -->"));
+            lines.push(format!(
+                "<link name=\"{}\">{light}</link>",
+                escape(&between)
+            ));
+            lines.push(format!(
+                "<joint name=\"{}\" type=\"{kind}\"><parent link=\"{}\"/><child link=\"{}\"/>{place}<axis xyz=\"{}\"/>{limit}</joint>",
+                escape(&name),
+                escape(&from),
+                escape(&between),
+                numbers(frame.inverse().direction(*direction)),
+            ));
+            place.clear();
+            from = between;
+        }
+        edits.after(e, &lines);
+        edits.set(end, "link", &from)?;
+        for (key, zero) in [("xyz", "0 0 0"), ("rpy", "0 0 0"), ("quat_xyzw", "0 0 0 1")] {
+            if let Some(at) = at.filter(|at| at.attribute(key).is_some()) {
+                edits.set(at, key, zero)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Limits of sliding joints, which URDF requires.
+const LIMIT: &str = "<limit lower=\"-1\" upper=\"1\" effort=\"0\" velocity=\"0\"/>";
+
+/// Returns the placement that an element gives, as the origin of a joint.
+fn origin_of(at: Element<'_>) -> String {
+    let given = ["xyz", "rpy", "quat_xyzw"].into_iter().filter_map(|key| {
+        let value = at.attribute(key)?;
+        Some(format!(" {key}=\"{}\"", escape(value)))
+    });
+    format!("<origin{}/>", given.collect::<String>())
+}
+
+/// Makes a `<mimic>` a comment.
+pub(crate) fn comment_out(
+    origin: &Origin,
+    element: usize,
+    why: &str,
+    edits: &mut Edits<'_>,
+) -> Read<()> {
+    let e = origin.element(element);
+    let raw = comment(edits.raw(e));
+    let span = e.node().span.start..end(e);
+    edits.replace(e, span, format!("<!-- {why}; it was {raw} -->"));
+    Ok(())
+}
+
+/// Gives joints freedoms.
+pub(crate) fn free_sdf(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) -> Read<()> {
+    let light = Light::in_description(&origin.document).sdf();
+    for &(part, e, freed) in all {
+        let remedy = "choose another joint";
+        let (Some(child), "joint") = (e.child("child"), e.name()) else {
+            return Err(e.unsupported("no link can be inserted there", remedy));
+        };
+        let mut nodes = origin.document.nodes.iter();
+        let model = nodes
+            .position(|n| n.children.contains(&e.id))
+            .unwrap_or(origin.root);
+        let model = origin.element(model);
+        let named = |l: &Element<'_>| l.attribute("name") == Some(child.text());
+        let Some(link) = model.named("link").find(named) else {
+            return Err(e.unsupported("its child is not a link of the same model", remedy));
+        };
+        let frame = axes_frame(origin, model, part, e)?;
+        let pose = |e: Element<'_>| e.child("pose").map_or("", |p| edits.raw(p)).to_owned();
+        let (link_pose, joint_pose) = (pose(link), pose(e));
+        let mut lines = Vec::new();
+        let mut chain = Vec::new();
+        for (slides, direction, why) in freed {
+            let (kind, word) = if *slides {
+                ("prismatic", "slide")
+            } else {
+                ("revolute", "turn")
+            };
+            let between = edits.name(&format!("{}_{word}_link", part.id.replace("::", "_")));
+            let name = edits.name(&format!("{}_{word}", part.id.replace("::", "_")));
+            let axis = numbers(frame.inverse().direction(*direction));
+            lines.push(format!("<!-- {why} -->"));
+            lines.push(format!(
+                "<link name=\"{}\">{link_pose}{light}</link>",
+                escape(&between)
+            ));
+            chain.push((name, kind, between, axis));
+        }
+        for (i, (name, kind, between, axis)) in chain.iter().enumerate() {
+            let next = chain.get(i + 1).map_or(child.text(), |c| &c.2);
+            lines.push(format!(
+                "<joint name=\"{}\" type=\"{kind}\">{joint_pose}<parent>{}</parent><child>{}</child><axis><xyz>{axis}</xyz><limit><lower>-1e16</lower><upper>1e16</upper></limit></axis></joint>",
+                escape(name),
+                escape(between),
+                escape(next),
+            ));
+        }
+        let inner = child.node().span.end..child.node().close.start;
+        edits.replace(child, inner, escape(&chain[0].2));
+        edits.after(e, &lines);
+    }
+    Ok(())
+}
+
+/// Returns the frame, in the world, in which axes of a joint's followers are given: of the joint, or of its model before SDF 1.5.
+fn axes_frame(
+    origin: &Origin,
+    model: Element<'_>,
+    part: &Part,
+    e: Element<'_>,
+) -> Read<RigidMotion> {
+    // A joint with two axes that are not square is two parts; its child hangs on the last.
+    let mut parts = origin.robot.joints.iter().rev();
+    let last = parts.find(|p| p.element == Some(e.id)).unwrap_or(part);
+    let to = last.links[1];
+    if !is_old(origin.element(origin.root)) {
+        return Ok(origin.places[to].then(&last.sides[1]));
+    }
+    let back = origin.robot.places[to].then(&origin.places[to].inverse());
+    let pose = model.child("pose").map(|p| p.text_numbers::<6>());
+    let [_, _, _, roll, pitch, yaw] = pose.transpose()?.unwrap_or_default();
+    let model = RigidMotion::roll_pitch_yaw([0.0; 3], [roll, pitch, yaw]);
+    Ok(back.inverse().then(&model))
 }

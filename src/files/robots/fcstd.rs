@@ -1,6 +1,5 @@
 //! FreeCAD documents with assemblies, `.FCStd`: the parts of an assembly at their places, and its joints.
 
-mod brep;
 mod distance;
 mod objects;
 mod reference;
@@ -18,7 +17,7 @@ use crate::robots::xml::element::Element;
 use crate::robots::xml::{self, Document};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The member of the archive that says what objects there are.
+/// The member of the archive that lists the objects.
 pub(crate) const DOCUMENT: &str = "Document.xml";
 
 /// Most documents that one may link to, with those that these link to.
@@ -26,7 +25,7 @@ const MAX_LINKED: usize = 100;
 /// Rows of a joint of an unknown type: the maximum that still allows a motion.
 const UNKNOWN_ROWS: usize = 5;
 
-/// Properties that say that a joint has limits.
+/// Properties that enable the limits of a joint.
 const LIMITS: &str = "EnableLengthMin EnableLengthMax EnableAngleMin EnableAngleMax";
 
 /// Reads the assembly of a document as a robot.
@@ -161,7 +160,7 @@ fn chosen<'a>(
         });
     }
     let count = |o: &&Object<'a>| joints(objects, o).len();
-    // Of as many joints the first.
+    // Of assemblies with equally many joints, the first.
     let Some(&most) = all.iter().rev().max_by_key(count) else {
         let message =
             "there is no assembly in the document; make one with FreeCAD's Assembly workbench";
@@ -190,7 +189,7 @@ type Ended<'a> = (Object<'a>, &'a str, [Reference<'a>; 2]);
 
 /// The parts of an assembly.
 struct Parts<'a> {
-    /// Labels and places; the first is what stands still.
+    /// Labels and places; the first is the ground.
     parts: Vec<(String, RigidMotion)>,
     /// Which of them an object is, by its name.
     place: BTreeMap<&'a str, usize>,

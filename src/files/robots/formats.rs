@@ -340,7 +340,7 @@ mod tests {
         );
         for f in &FORMATS {
             assert!(f.read.is_some() || f.write.is_some(), "{}", f.word);
-            // Descriptions are told by their ending.
+            // Descriptions are recognised by their ending.
             assert_eq!(f.read.is_some(), !f.endings.is_empty(), "{}", f.word);
         }
     }

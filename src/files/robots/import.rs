@@ -41,7 +41,7 @@ pub struct Imported {
     /// Mapped, approximated and dropped elements.
     pub report: Report,
     comments: Vec<Comment>,
-    /// Where in the description the mechanism's parts stand.
+    /// The places of the mechanism's parts in the description.
     pub origin: Origin,
 }
 
@@ -55,7 +55,7 @@ impl Imported {
     }
 }
 
-/// Reads the root element of a description: of XML, of the document in an archive, or of lines laid out by tabs.
+/// Reads the root element of a description: of XML, of the document in an archive, or of lines indented by tabs.
 fn root(
     document: &mut Document,
     name: &str,
@@ -92,7 +92,7 @@ pub fn import(
     let mut document = Document::default();
     let archive = Archive::of(name, bytes);
     let root = root(&mut document, name, bytes, archive.as_ref())?;
-    // What is in the archive goes before what stands beside it.
+    // Members of the archive take precedence over files next to it.
     let inner = |member: &str| match archive.as_ref().map(|a| a.member(member)) {
         Some(Ok(Some(found))) => Ok(found),
         _ => read(member),

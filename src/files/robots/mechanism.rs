@@ -3,7 +3,6 @@
 pub(in crate::robots) mod entries;
 pub(in crate::robots) mod loop_closing;
 pub(in crate::robots) mod loop_options;
-pub(in crate::robots) mod outputs;
 pub(in crate::robots) mod series_of_single_joints;
 
 use crate::file::problem::ProblemKind;
@@ -16,8 +15,8 @@ use crate::model::joint_type::JointType;
 use crate::robots::description::kinematics::{Tree, places, spanning_tree};
 use crate::robots::description::{Part, Robot, coupling, free};
 use crate::robots::mechanism::entries::{Bodies, Content};
+use crate::robots::mechanism::entries::{link_of, output_links};
 use crate::robots::mechanism::loop_closing::{CLOSED, ROUNDED, close, gaps, size, worst};
-use crate::robots::mechanism::outputs::link_of;
 use crate::robots::warning::Options;
 use crate::robots::warning::{bad_value, known, syntax_problem, unknown_name};
 use itertools::Itertools;
@@ -240,7 +239,7 @@ pub(crate) fn entries(
     let (bodies, joints) = rigid_bodies(robot, tree)?;
     let couplings = coupling::usable(robot, &joints);
     let frame = bodies.of[tree.roots[0]];
-    let outputs = outputs::of(robot, &bodies, &joints, frame, options)?;
+    let outputs = output_links(robot, &bodies, &joints, frame, options)?;
     let mut report = std::mem::take(&mut robot.report);
     report.outputs = (
         outputs.iter().map(|&b| robot.links[b].clone()).collect(),

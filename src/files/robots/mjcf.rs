@@ -225,7 +225,7 @@ fn body<'a>(
     robot.report.map("body");
     if joints.is_empty() {
         let link = robot.link(&name, world);
-        // What a hand or a recording moves in all six ways: a drive, and no part of the frame.
+        // A hand or a recording moves it in six freedoms: it is a drive, and not part of the frame.
         let mocap = e.attribute("mocap") == Some("true");
         let kind = if mocap { free() } else { JointType::Fixed };
         let sides = [place, RigidMotion::IDENTITY];

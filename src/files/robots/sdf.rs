@@ -1,8 +1,7 @@
 //! Reading, fixing and writing SDF: models with links, frames and joints, places relative to each other, loops closed by joints
 //! as drawn.
 
-pub(super) mod fix;
-mod include;
+pub(super) mod include;
 pub(super) mod joints;
 pub(super) mod scene;
 pub(super) mod write;
@@ -45,13 +44,13 @@ pub(crate) fn read(
     };
     let among = of_worlds(root, &mut scene);
     models(root, among.is_empty(), &mut scene, &mut robot)?;
-    // Those of the world name what is in its models by the models' names.
+    // Joints and frames of the world name parts with the prefix of their model.
     for e in among {
         named_place(e, "", "world", false, &mut scene)?;
     }
     resolve(&mut scene)?;
     place_links(&scene, &mut robot);
-    // What else is in worlds is judged by the names that are known by now.
+    // Other elements of worlds are judged by the names that are known now.
     let others = root
         .named("world")
         .flat_map(|w| w.children().collect::<Vec<_>>());
@@ -99,7 +98,7 @@ fn models<'a>(
         outermost.map(|m| (m, String::new(), false)).collect();
     while let Some((m, outer, inner)) = stack.pop() {
         let own = m.required("name")?;
-        // The one model's names stand as they are; others are prefixed, as SDF does it for nested models.
+        // The names of a single model are kept; others get a prefix, as SDF does for nested models.
         let scope = if inner || !alone {
             format!("{outer}{own}::")
         } else {

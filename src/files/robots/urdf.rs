@@ -1,13 +1,11 @@
 //! Reading, fixing and writing URDF: a tree of links and joints, with mimic joints, transmissions and the usual loop extensions.
 
-pub(super) mod fix;
-mod gazebo;
 pub(super) mod write;
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, X, Y, length};
 use crate::model::joint_type::JointType;
-use crate::robots::additions::{ball_constraint, couple, leave_out, named};
+use crate::robots::additions::{ball_constraint, couple, leave_out, named, read_gazebo};
 use crate::robots::description::{Part, Ratio, Robot, free, same_link};
 use crate::robots::warning::{Options, Reader};
 use crate::robots::warning::{Read, bad_value, known, unknown_name};
@@ -30,7 +28,7 @@ pub(crate) fn read(
     for e in root.named("link") {
         link(e, &mut robot)?;
     }
-    // Every reader knows the world, and takes what hangs on it for fixed.
+    // Every reader knows the world and treats it as fixed.
     let on_world = |j: Element<'_>| {
         let parent = j.child("parent");
         parent.is_some_and(|p| p.attribute("link") == Some("world"))
@@ -52,14 +50,14 @@ pub(crate) fn read(
             _ => unknown.push(e),
         }
     }
-    gazebo::read(root, &mut robot)?;
+    read_gazebo(root, &mut robot)?;
     for e in root.named("ros2_control") {
         controlled(e, &mut robot)?;
     }
     for e in root.named("transmission") {
         transmission(e, &mut robot);
     }
-    // Whether they could hold anything depends on the names of all links and joints.
+    // The names of all links and joints decide whether they could constrain anything.
     for e in unknown {
         leave_out(e, None, &mut robot);
     }
@@ -102,7 +100,7 @@ fn transmission(e: Element<'_>, robot: &mut Robot) {
             None => robot.report.drop("transmission", Some(j)),
         }
     }
-    // More joints than actuators are coupled, unless they are said to follow one another.
+    // If there are more joints than actuators, they are coupled, unless they follow one another.
     let follows = |j: &String| robot.couplings.iter().any(|c| c.joints[1] == *j);
     let named = named(e, None, robot).into_iter().filter(|j| !follows(j));
     let joints = named
@@ -290,7 +288,7 @@ fn joint(e: Element<'_>, robot: &mut Robot) -> Read<()> {
 
 /// Returns the limits of a joint, if it has any.
 fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
-    // What is beyond all numbers that are read, 1e16 say, is no limit.
+    // A number beyond the allowed range, such as 1e16, means no limit.
     let one = |k| match e.attribute(k).map(str::parse::<f64>) {
         Some(Ok(x)) if x.abs() > 1e9 => Ok(x.signum() * f64::INFINITY),
         _ => Ok(e.numbers::<1>(k)?.map_or(0.0, |[x]| x)),

@@ -39,7 +39,7 @@ const SHOWN: usize = 4;
 /// Maximum number of kinds in a sentence.
 const KINDS: usize = 12;
 
-/// Something that the mechanism file cannot say exactly.
+/// An element that the mechanism file cannot represent exactly.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// The element.
@@ -75,7 +75,7 @@ impl CadCount {
     }
 }
 
-/// What became of a file.
+/// The report on the import of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
     /// Elements mapped, by kind.
@@ -97,7 +97,7 @@ pub struct Report {
     pub count: Option<CadCount>,
     /// How the pose was found and how well the loops close.
     pub pose: Vec<String>,
-    /// Those of these that make the mechanism another than is drawn: joints moved, loops taken open, bases that float.
+    /// The subset that changes the mechanism from the drawn one: joints moved, loops left open, floating bases.
     pub moved: Vec<String>,
     /// Links and joints of the mechanism.
     pub size: (usize, usize),
@@ -110,7 +110,7 @@ impl Report {
         *self.mapped.entry(kind.to_owned()).or_default() += 1;
     }
 
-    /// Says of the pose what is not as drawn.
+    /// Records a difference of the pose from the drawn one.
     pub(crate) fn moved(&mut self, what: String) {
         self.pose.push(what.clone());
         self.moved.push(what);

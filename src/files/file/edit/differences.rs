@@ -94,7 +94,7 @@ fn keys(joint: &JointEntry) -> Map<String, Value> {
         Value::Object(map) => map,
         _ => Map::new(),
     };
-    // Options of a joint are as many as the program could write; those of the file stand elsewhere.
+    // A written joint lists all options; those of the file are listed elsewhere.
     let told = |k: &str| !matches!(k, "options" | "unloading" | "forbid" | "tolerance");
     map.into_iter().filter(|(k, _)| told(k)).collect()
 }

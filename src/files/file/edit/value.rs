@@ -44,7 +44,7 @@ fn replaced(old: &Value, key: &str, to: &Json) -> Result<Value, EditError> {
 fn is(old: &Value, to: &Json) -> bool {
     match (old, to) {
         (Value::String(s), Json::String(t)) => s.value() == t,
-        // What is typed may be a number, with the digits that it has.
+        // A typed text may be a number with its digits.
         (Value::Integer(_) | Value::Float(_), Json::String(t)) => {
             old.to_string().trim() == t.trim()
         }
@@ -106,7 +106,7 @@ fn number(text: &str) -> Option<Value> {
     if text.is_empty() || !text.chars().all(plain) {
         return None;
     }
-    // TOML wants a digit on either side of the point.
+    // TOML requires a digit on both sides of the point.
     let value: Value = text.parse().ok()?;
     matches!(value, Value::Integer(_) | Value::Float(_)).then_some(value)
 }

@@ -42,7 +42,7 @@ fn parallel(a: &[Expr; 3], b: &[Expr; 3]) -> bool {
     let largest = |v: [f64; 3]| v.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let scale = largest(x) * largest(y);
     [(1, 2), (2, 0), (0, 1)].into_iter().all(|(i, j)| {
-        // What is far from zero in floating point needs no exact look.
+        // A value far from zero in floating point needs no exact check.
         if (x[i] * y[j] - x[j] * y[i]).abs() > 1e-9 * scale {
             return false;
         }
@@ -219,7 +219,7 @@ fn option_frame(joint: &str, present: &Frame, table: &OptionTable, at: &Place<'_
     if table.axis.is_some() || table.reference.is_some() {
         return frame(joint, point, axis, reference, pitch, at);
     }
-    // Those directions are looked at already.
+    // These directions are already checked.
     let reference = present.reference.clone();
     Frame {
         point,

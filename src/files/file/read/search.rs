@@ -125,7 +125,7 @@ pub(crate) fn search(file: &MechanismFile, mechanism: &Mechanism, out: &Findings
     let mut joints = |ids: &[String], under, at: &Place<'_>| {
         let named = ids.iter().filter_map(|id| at.joint(mechanism, id));
         let mut named = named.collect_vec();
-        // Whether images are so is asked of each joint once: thousands of mistaken pairs took minutes.
+        // Each joint is checked once, because thousands of wrong pairs took minutes.
         named.retain(|&j| {
             let first = !grouped.contains(&j);
             if first {
@@ -292,7 +292,7 @@ pub(crate) fn joint_types(
             capacity_moment: entry.capacity_moment,
             clearance: entry.clearance,
         };
-        // An entry of a cost alone says nothing of what the type bears.
+        // An entry with only a cost does not change the capacity of the type.
         let nothing = TypeOverride {
             name: name.to_owned(),
             ..TypeOverride::default()

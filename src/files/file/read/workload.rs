@@ -29,7 +29,7 @@ pub struct WorkloadFile<T> {
     pub sources: Vec<String>,
     /// Unit of the file's lengths, for labels.
     pub length_unit: LengthUnit,
-    /// What publications say of it.
+    /// Claims of publications about it.
     pub claims: Vec<Claim>,
     /// The mechanism, where the file has links or joints.
     pub mechanism: Option<Mechanism>,

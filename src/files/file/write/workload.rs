@@ -85,9 +85,9 @@ pub(crate) fn drive(spec: &DriveSpec, metres: f64) -> DriveEntry {
     let mut entry = DriveEntry {
         swing_angle: angle(2.0 * spec.twist),
         period: Some(plain(spec.period)),
-        // The whole, of which a payload beside it is a part.
+        // The total inertia, which includes that of the payload.
         inertia: Some(plain(first)),
-        // A payload of no mass tells a radius alone.
+        // A payload without mass only gives a radius.
         payload_mass: spec.payload.filter(|p| p.mass > 0.0).map(|p| plain(p.mass)),
         payload_radius: spec.payload.map(|p| length(p.radius)),
         second_inertia: (second.to_bits() != first.to_bits()).then(|| plain(second)),

@@ -15,11 +15,11 @@ pub(crate) struct Meeting {
     pub(super) kind: JointType,
     /// The joint's frame by I.
     pub(super) near: RigidMotion,
-    /// The same by J: where all fits, the same place.
+    /// The joint's frame by J; equal to that by I if the two fit.
     pub(super) far: RigidMotion,
     /// Translation per radian of a screw.
     pub(super) pitch: f64,
-    /// Whether the type is right at this pose only: what is held turns or wanders as the parts move.
+    /// Whether the type is valid at this pose only, because the constrained directions move with the parts.
     pub(super) here_only: bool,
 }
 
@@ -290,7 +290,7 @@ fn gear(i: &RigidMotion, j: &RigidMotion, [a, b]: [f64; 2]) -> Result<Meeting, &
     Ok(here(Meeting::new(JointType::SphereOnPlane, there, there)))
 }
 
-/// Rates below this share of the other are none.
+/// Rates below this fraction of the other count as zero.
 const NONE: f64 = 1e-9;
 
 /// Returns true for a belt on equal wheels.

@@ -15,7 +15,7 @@ use crate::robots::warning::{Read, unsupported};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// Sines below this are none.
+/// Sines below this count as zero.
 const SAME: f64 = 1e-4;
 
 /// The names, in FreeCAD and in OndselSolver, of a type that a joint can be changed to in its place, without another element or

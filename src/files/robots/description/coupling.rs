@@ -13,7 +13,7 @@ use crate::robots::warning::Kept;
 /// Maximum work of singular values, rows · columns · the lesser of them, for which the figures are reported.
 pub(crate) const LARGEST: usize = 2_000_000_000;
 
-/// A coupling that a mechanism file can say.
+/// A coupling that a mechanism file can represent.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Usable {
     /// The joints that lead and follow, by their places in the robot.
@@ -22,7 +22,7 @@ pub(crate) struct Usable {
     pub(in crate::robots) ratio: f64,
     /// The element that defines it.
     pub(in crate::robots) said_by: usize,
-    /// Whether it says that gears make it.
+    /// Whether gears make it, according to the file.
     pub(in crate::robots) gear: bool,
 }
 

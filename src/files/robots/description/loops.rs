@@ -3,7 +3,7 @@
 //! - ozols' own: a list `loop` of tables with `a` and `b` (names of links, frames or joints), `type` (spherical by
 //!   default), and `point_a`, `point_b`, `axis_a`, `axis_b` in those frames;
 //! - `closed_loop: [[a, b], ...]`, `type: [6d, 3d, ...]`, `name_mot: [...]` of example-parallel-robots, with `joint_name: [...]`
-//!   and `joint_type: [...]` of the joints that are not what the URDF says;
+//!   and `joint_type: [...]` of the joints whose types differ from the URDF;
 //! - Drake's list of `ball_constraint_body_A`, `ball_constraint_p_AP`, `..._body_B`, `..._p_BQ`.
 
 use crate::file::problem::ProblemKind;

@@ -1,4 +1,4 @@
-//! Where in a description the parts of the mechanism stand.
+//! The places of the parts of a mechanism in its description.
 
 use crate::format::brief;
 use crate::geom::rigid::RigidMotion;
@@ -84,7 +84,7 @@ impl Origin {
         })
     }
 
-    /// Returns the joints that stand outside their limits in the pose of the mechanism, in words: angles in radians, slides in
+    /// Returns the joints that are outside their limits in the pose of the mechanism, in words: angles in radians, slides in
     /// the unit of the description.
     #[must_use]
     pub fn outside_limits(&self) -> Vec<String> {

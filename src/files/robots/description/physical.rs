@@ -21,7 +21,7 @@ pub(crate) fn inertial(m: &Mechanism, link: LinkId, origin: Vector) -> Option<In
     let p = m.links[link].mass.as_ref()?;
     let tensor = match p.inertia {
         None => [0.0; 6],
-        // The plane's normal is told of by the comment on planar models.
+        // The comment on planar models mentions the plane's normal.
         Some(Inertia::Plane(i)) => [i, i, i, 0.0, 0.0, 0.0],
         Some(Inertia::Principal([x, y, z])) => [x, y, z, 0.0, 0.0, 0.0],
         Some(Inertia::Tensor([xx, yy, zz, xy, yz, zx])) => [xx, yy, zz, xy, zx, yz],
@@ -104,7 +104,7 @@ pub(crate) fn left_out(m: &Mechanism) -> Vec<String> {
 const MOST: [f64; 2] = [1e-4, 1e-7];
 /// The least: sdformat takes a mass of 1e-6 for none and drops the link, MuJoCo takes 1e-15 for nothing.
 const LEAST: [f64; 2] = [1e-5, 1e-12];
-/// A mass below this fraction of the heaviest is treated as a stand-in of the owner's.
+/// A mass below this fraction of the heaviest is treated as a placeholder in the file.
 const STAND_IN: f64 = 1e-4;
 
 /// The weight of an inserted link, in kg, and in kg·m² about every axis, like a ball, which every engine accepts.

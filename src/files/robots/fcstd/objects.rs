@@ -139,7 +139,7 @@ impl<'a> Object<'a> {
             Ok(e.numbers::<1>(k)?.map_or(0.0, |[x]| x))
         };
         let translation = [number("Px")?, number("Py")?, number("Pz")?];
-        // The scalar part stands last.
+        // The scalar part is last.
         let q = [number("Q3")?, number("Q0")?, number("Q1")?, number("Q2")?];
         if q.iter().map(|x| x * x).sum::<f64>() < 1e-6 {
             let (object, what) = (self.called(), format!("{name} (Q0 to Q3)"));

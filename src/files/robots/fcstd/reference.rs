@@ -183,7 +183,7 @@ fn follow<'a>(
         element,
     };
     if part.is_datum() {
-        // What is attached to nothing stands still.
+        // A datum that is attached to nothing is fixed.
         out.part = None;
         if is_attached(&part) {
             out.doubt = Some("it is an attached datum, treated as fixed in place".to_owned());
@@ -244,7 +244,7 @@ fn resolved<'a>(
     documents: &Documents<'a>,
     out: &mut Reference<'a>,
 ) -> Read<ObjectInFile<'a>> {
-    // A chain of links is short; a ring of them is none.
+    // A chain of links is short; the limit ends a ring of them.
     for _ in 0..16 {
         let Some((in_file, name)) = at.object.linked() else {
             break;

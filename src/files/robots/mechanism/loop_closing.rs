@@ -138,7 +138,7 @@ pub(crate) fn close(robot: &mut Robot, tree: &Tree) -> (f64, usize) {
     }
 }
 
-/// Takes whole turns off angles; says whether the joint is within its limits.
+/// Removes whole turns from angles. Returns true if the joint is within its limits.
 fn wind_back(j: &mut Part) -> bool {
     const TURN: f64 = std::f64::consts::TAU;
     let middle = j.limits.map_or(0.0, |(low, high)| f64::midpoint(low, high));

@@ -6,7 +6,7 @@ use crate::robots::warning::{Read, bad_value, known, syntax_problem};
 use crate::robots::xml::element::Element;
 use std::collections::BTreeMap;
 
-/// What `<compiler>` sets.
+/// The settings of `<compiler>`.
 #[derive(Debug, Clone)]
 pub(super) struct Compiler {
     /// Radians in the file's unit of angle.

@@ -35,7 +35,7 @@ pub(crate) fn read(
                 let ends = ends(e, context, robot)?;
                 let scale = look.numbers::<1>("torquescale")?;
                 if scale == Some([0.0]) {
-                    // Nothing holds its turns: a ball at its anchor, which is given in the second body.
+                    // Without torque it is a ball at its anchor, which is given in the second body.
                     let at = RigidMotion::shift(look.vector("anchor", [0.0; 3])?);
                     let [(one, first), (two, second)] = ends;
                     let ends = match e.attribute("site1") {
@@ -100,7 +100,7 @@ fn ends(e: Element<'_>, context: &Context<'_>, robot: &Robot) -> Read<[End; 2]> 
         let at = RigidMotion::shift(e.vector("anchor", [0.0; 3])?);
         return Ok([(one, at), (two, as_drawn(at))]);
     }
-    // The place of body 2 in body 1; a zero quaternion stands for that of the model as drawn.
+    // The place of body 2 in body 1; a zero quaternion means the place in the model as drawn.
     match e.numbers::<7>("relpose")? {
         Some([x, y, z, quat @ ..]) if quat != [0.0; 4] => Ok([
             (one, RigidMotion::quaternion([x, y, z], quat)),

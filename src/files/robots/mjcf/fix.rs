@@ -28,7 +28,7 @@ pub(crate) fn free(origin: &Origin, all: &[Freeing<'_>], edits: &mut Edits<'_>) 
         origin,
         defaults: Defaults::read(root)?,
         parents: parents(origin),
-        // What links weigh is told by shapes and elements that are not wrong where kinematics are read.
+        // Errors in shapes and masses do not matter for the kinematics.
         weights: weights::read(root, &origin.robot).unwrap_or_default(),
         inserted: Vec::new(),
     };

@@ -9,8 +9,8 @@ use std::path::{Component, Path};
 /// Deepest nesting of files, and most includes in all.
 const LIMITS: (usize, usize) = (16, 1000);
 
-/// Puts the included files in place of all `<include>` elements below `root`; `outside` says whether files outside its folder
-/// may be asked for.
+/// Replaces all `<include>` elements below `root` by the included files; with `outside`, files outside its folder
+/// may be read.
 pub(super) fn expand(
     document: &mut Document,
     root: usize,
@@ -26,7 +26,7 @@ pub(super) fn expand(
 /// The files that may be included.
 struct Files<'r> {
     read: Reader<'r>,
-    /// Whether those outside the folder of the document may be asked for.
+    /// Whether files outside the folder of the document may be read.
     outside: bool,
 }
 

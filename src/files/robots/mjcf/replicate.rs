@@ -7,7 +7,7 @@ use crate::robots::xml::{Document, MAX_ELEMENTS};
 
 /// Puts frames with copies in place of all `<replicate>` elements below `root`, those within others first.
 pub(super) fn expand(document: &mut Document, root: usize) -> Read<()> {
-    // Settings may be wrong, which is told where they are needed.
+    // Wrong settings are reported where they are needed.
     if !document.nodes.iter().any(|n| n.is_called("replicate")) {
         return Ok(());
     }

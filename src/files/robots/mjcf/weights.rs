@@ -61,7 +61,7 @@ fn weights(
     settings: &Settings,
 ) -> BTreeMap<usize, Weight> {
     let mut out = stated;
-    // What stands still for good needs no weight.
+    // The world does not move and needs no weight.
     for (&link, all) in of_shapes.iter().filter(|(l, _)| **l != 0) {
         let asked = settings.from_shapes.unwrap_or(!out.contains_key(&link));
         if let (true, Some(w)) = (asked, together(all)) {
@@ -78,7 +78,7 @@ fn weights(
     out
 }
 
-/// Returns what an `<inertial>` says.
+/// Reads an `<inertial>`.
 fn inertial(e: Element<'_>, compiler: &Compiler) -> Read<Weight> {
     let mut tensor = [0.0; 6];
     if let Some(d) = e.numbers::<3>("diaginertia")? {

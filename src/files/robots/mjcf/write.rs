@@ -97,7 +97,7 @@ struct MjcfWriter<'a> {
     bodies: Vec<Option<(String, Vector)>>,
     /// Lines of the small bodies on a link.
     between: BTreeMap<LinkId, Vec<String>>,
-    /// What hangs on a link, by which joint, and the sense it is passed in.
+    /// The children of a link, each with its joint and the sense in which it is passed.
     children: BTreeMap<LinkId, Vec<(LinkId, JointId, f64)>>,
     /// In how many bodies a link is written, where it is more than one: its own, and one on each joint that closes a loop there.
     parts: BTreeMap<LinkId, f64>,

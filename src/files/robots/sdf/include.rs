@@ -12,7 +12,7 @@ const LIMITS: (usize, usize) = (16, 1000);
 /// Included files that are not mechanisms, and that few users have: Gazebo's own light and floor.
 const SCENERY: [&str; 2] = ["model://sun", "model://ground_plane"];
 
-/// What became of the includes.
+/// The result of expanding the includes.
 pub(super) struct Expanded {
     /// For each file, true if it is older than SDF 1.5.
     pub(super) old: Vec<bool>,
@@ -54,7 +54,7 @@ pub(super) fn expand(document: &mut Document, root: usize, read: Reader<'_>) -> 
 }
 
 /// Returns true if the version is before 1.5; 1.11 comes after 1.9.
-pub(super) fn is_old(root: Element<'_>) -> bool {
+pub(crate) fn is_old(root: Element<'_>) -> bool {
     let version = root.attribute("version").and_then(|v| {
         let (major, minor) = v.trim().split_once('.').unwrap_or((v, "0"));
         Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))

@@ -128,7 +128,7 @@ fn joint_type(e: Element<'_>, word: &str) -> Read<JointType> {
     })
 }
 
-/// Tells what a joint says besides what is read.
+/// Reports the elements of a joint that are not read.
 fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
     let known = "pose parent child axis axis2 screw_thread_pitch thread_pitch";
     let within = "xyz limit mimic drake:mimic use_parent_model_frame";
@@ -141,7 +141,7 @@ fn left_out(e: Element<'_>, name: &str, robot: &mut Robot) {
     }
 }
 
-/// Tells how far, in metres, a joint is from the frame that is its parent.
+/// Reports the distance, in metres, of a joint from its parent frame.
 fn told_apart(e: Element<'_>, far: f64, assembled: bool, robot: &mut Robot) {
     let done = if assembled {
         "assembled"
@@ -177,7 +177,7 @@ pub(crate) fn limits(e: Element<'_>) -> Read<Option<(f64, f64)>> {
         return Ok(None);
     };
     let one = |tag: &str| match l.child(tag) {
-        // Without a limit SDF says 1e16 or infinity.
+        // SDF writes 1e16 or infinity for no limit.
         Some(c) if ["inf", "-inf"].contains(&c.text()) => Ok(None),
         Some(c) => match c.text().parse::<f64>() {
             Ok(x) if x.abs() > 1e9 => Ok(None),

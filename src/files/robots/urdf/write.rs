@@ -75,7 +75,7 @@ impl UrdfWriter<'_> {
     /// Writes a link with its frame at a point, and returns its name.
     fn link(&mut self, l: LinkId, at: [f64; 3]) -> String {
         let name = self.links.fit(&self.m.links[l].id);
-        // What stands still needs no mass, and some readers want none of it.
+        // A fixed link needs no mass, and some readers reject one.
         let weight = if l == self.m.frame() {
             inertial(self.m, l, at)
         } else {

@@ -201,12 +201,12 @@ fn angle_text(text: &str) -> Option<(Coordinate, f64)> {
     Some((Coordinate::Expression(divided), PI))
 }
 
-/// Directions that are off by more, in radians, say nothing.
+/// Maximum uncertainty of a direction, in radians.
 const MOST_TURN: f64 = 0.1;
 /// Maximum uncertainty of places, as a fraction of the size of the mechanism.
 const MOST_SHIFT: f64 = 0.1;
 
-/// Puts what is stated in place of what digits say.
+/// Replaces the uncertainties that follow from the digits by the stated ones.
 pub(crate) fn tolerance(file: &MechanismFile, m: &mut Mechanism, out: &Findings) {
     let across = diagonal(m.joints.iter().map(|j| real(&j.frame.point)));
     // Joints that are all in one place have no size.

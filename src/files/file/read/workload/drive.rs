@@ -203,7 +203,7 @@ pub(crate) fn inertias(
         (None, Some(_)) if whole.is_none() => t.needs("payload_radius", "payload_mass"),
         _ => {}
     }
-    // Of a whole inertia the radius alone tells how far out accelerations are wanted.
+    // With a total inertia, the radius only sets where accelerations are computed.
     let mass = mass.or(whole.map(|_| 0.0));
     let payload = mass.zip(radius);
     let payload = payload.map(|(mass, radius)| Payload { mass, radius });

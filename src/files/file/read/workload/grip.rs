@@ -48,7 +48,7 @@ fn listed(at: &Place<'_>, entry: &Diameters, unit: f64) -> Option<Vec<f64>> {
     }
     let count = at.key("count").number_of(what, s.count, MOST, allowed)?;
     let step = (to - from) / (count.max(2) - 1) as f64;
-    // Steps in the unit of the file, so that a list of them says the same.
+    // Steps in the unit of the file, so that a list of the same numbers is equal.
     let each = (0..count).map(|i| (from + step * i as f64) * unit);
     Some(each.collect())
 }

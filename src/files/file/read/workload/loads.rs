@@ -15,7 +15,7 @@ use crate::model::loads::{
 use crate::model::mechanism::Mechanism;
 use crate::statics::reactions::contact::object_at;
 
-/// What inertias and masses may be.
+/// The allowed range of inertias and masses.
 const NOT_NEGATIVE: &str = "a number from 0 to 1e12";
 
 /// Returns true if a mass or an inertia is in range.

@@ -1,4 +1,4 @@
-//! Masses with their tensors of inertia, several as one, and what an MJCF file says of how bodies are weighed.
+//! Masses with their tensors of inertia, their sums, and the settings of an MJCF file for them.
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{Vector, add, dot, length, scale, sub};
@@ -18,7 +18,7 @@ pub(in crate::robots::mjcf) struct Weight {
 }
 
 impl Weight {
-    /// What weighs nothing.
+    /// A weight of zero.
     pub(super) const NOTHING: Weight = Weight {
         mass: 0.0,
         place: RigidMotion::IDENTITY,
@@ -79,14 +79,14 @@ pub(super) fn together(all: &[Weight]) -> Option<Weight> {
     })
 }
 
-/// What `<compiler>` says of weights.
+/// The settings of `<compiler>` for weights.
 pub(super) struct Settings {
     pub(super) compiler: Compiler,
     /// The least mass and moment of inertia of a body.
     pub(super) least: [f64; 2],
-    /// Whether a tensor that no body has becomes a ball's.
+    /// Whether an impossible tensor is replaced by that of a ball.
     pub(super) balance: bool,
-    /// Whether shapes say what bodies weigh; where the file leaves it open, those of bodies without `<inertial>`.
+    /// Whether shapes define the weights of bodies. `None` if they do so for bodies without `<inertial>` only.
     pub(super) from_shapes: Option<bool>,
     /// The groups of shapes that weigh anything, from the first to the last.
     pub(super) groups: [f64; 2],
@@ -117,7 +117,7 @@ impl Settings {
         Ok(out)
     }
 
-    /// Returns a weight that is no less than the file asks for.
+    /// Returns a weight that is at least the minimum of the file.
     pub(super) fn bounded(&self, weight: Weight) -> Weight {
         let mut out = weight;
         let [mass, inertia] = self.least;
@@ -216,7 +216,7 @@ pub(super) fn weight_of_shape(look: &Lookup<'_>, settings: &Settings) -> Read<Op
     Ok(Some(weight).filter(|w| w.mass > 0.0))
 }
 
-/// Returns the turn that one of the five ways stands for, of the element or of its class.
+/// Returns the rotation of an element or of its class, given in one of five forms.
 fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
     let ways = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
     match ways.iter().find_map(|w| look.attribute(w)) {
@@ -230,7 +230,7 @@ fn orientation(look: &Lookup<'_>, compiler: &Compiler) -> Read<RigidMotion> {
 fn filled(kind: &str, measures: &Measures) -> Option<(f64, Vector)> {
     let &Measures { deep, long, .. } = measures;
     let (r, l) = (measures.sizes[0], 2.0 * measures.half);
-    // Of a cylinder, across it and along.
+    // The moments of a cylinder, across its axis and along it.
     let (across, along) = ((3.0 * r * r + l * l) / 12.0, r * r / 2.0);
     let (ball, middle) = (4.0 / 3.0 * PI * r.powi(3), PI * r * r * l);
     let block = |share: f64| {
