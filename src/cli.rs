@@ -3,6 +3,7 @@
 mod command;
 mod examples;
 mod option;
+mod prelude;
 mod terminal;
 
 use crate::builtin;

@@ -1,29 +1,17 @@
 //! `ozols analyze`.
 
 use crate::cli::command::verify;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, TextOrJson, load};
-use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::read::workload::motion::stroke;
-use crate::model::mechanism::{LinkId, Mechanism, StateId};
-use crate::rank::method::registry;
-use crate::rank::method::{MobilityMethod, RankOfJ};
+use crate::rank::method::{MobilityMethod, RankOfJ, registry};
 use crate::rank::rounded::verdict::verdict;
 use crate::rank::stroke::request::AskedStroke;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::mobility::ByMethod;
 use crate::view::analysis::next::next as steps;
-use crate::view::analysis::suggestions;
-use crate::view::analysis::{Analysis, State};
+use crate::view::analysis::{Analysis, State, suggestions};
 use crate::view::stroke::StrokeData;
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail, ensure};
-use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use itertools::Itertools;
-use std::path::PathBuf;
 
 /// Parses the name of a rank method; lists the surest method first.
 fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
@@ -34,21 +22,21 @@ fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Analyze {
+pub(crate) struct Analyze {
     #[command(flatten)]
-    pub(in crate::cli) file: File,
+    pub(crate) file: File,
     /// State to analyse, such as free or clamped, or all.
     #[arg(long, default_value = "all")]
-    pub(in crate::cli) state: String,
+    pub(crate) state: String,
     /// Method that computes the rank.
     #[arg(long, value_parser = rank_method(), default_value = "auto")]
     method: &'static dyn MobilityMethod,
     /// Relative tolerance of the floating-point methods [default: depends on the method].
     #[arg(long, value_name = "T")]
-    pub(in crate::cli) tolerance: Option<f64>,
+    pub(crate) tolerance: Option<f64>,
     /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial.
     #[arg(long)]
-    pub(in crate::cli) planar: bool,
+    pub(crate) planar: bool,
     /// Also report the motion of this link (repeatable).
     #[arg(long, value_name = "LINK")]
     link: Vec<String>,
@@ -57,30 +45,30 @@ pub(in crate::cli) struct Analyze {
     relative_to: Option<String>,
     /// Also print the counts behind W and σ, the method, the self-stresses, and published claims one by one.
     #[arg(long, short)]
-    pub(in crate::cli) verbose: bool,
+    pub(crate) verbose: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: TextOrJson,
+    pub(crate) format: TextOrJson,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
-    pub(in crate::cli) output: Option<PathBuf>,
+    pub(crate) output: Option<PathBuf>,
     /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
     #[arg(long, value_name = "FILE")]
-    pub(in crate::cli) certificate: Option<PathBuf>,
+    pub(crate) certificate: Option<PathBuf>,
     /// Also analyse the poses over a range of the drive, as FROM:TO:STEPS from the drawn pose, for example 0:360deg:72. Numbers
     /// without a unit are radians, or the file's length unit for sliding drives. Uses the first state unless --state names one.
     #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
-    pub(in crate::cli) stroke: Option<String>,
+    pub(crate) stroke: Option<String>,
     /// Joint that moves over the stroke, as JOINT:FREEDOM if it has several freedoms [default: the file's first drive]. The
     /// file's other drives are locked, unless this joint is none of them.
     #[arg(long, value_name = "JOINT", requires = "stroke")]
-    pub(in crate::cli) drive: Option<String>,
+    pub(crate) drive: Option<String>,
     /// Write a chart of the conditioning over the stroke to a file.
     #[arg(long, value_name = "FILE", requires = "stroke")]
-    pub(in crate::cli) svg: Option<PathBuf>,
+    pub(crate) svg: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut mechanism);

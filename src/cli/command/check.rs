@@ -1,36 +1,28 @@
 //! `ozols check`, `show` and `schema`.
 
 use crate::builtin;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::lint::{Checked, across, check};
 use crate::file::locate::DocumentStep;
 use crate::file::read::workload::tables_alone;
 use crate::file::warning::{WarningKind, Warnings};
-use crate::format::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
-use crate::model::mechanism::{Expected, Mechanism};
+use crate::model::mechanism::Expected;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::mechanism::describe;
 use crate::view::search::costs;
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
 
 /// Name of the table of costs for `show`; no built-in mechanism has this name.
 const COSTS: &str = "costs";
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Show {
+pub(crate) struct Show {
     /// Name of a built-in mechanism, or `costs` for the table of default costs that --costs takes.
     #[arg(value_name = "NAME")]
     name: String,
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(a)?;
     if let Some((name, tables)) = tables_alone(&name, &bytes)? {
         return output::to(None, |out| {
@@ -78,7 +70,7 @@ pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
 }
 
 /// Prints what to do next with a file.
-pub(in crate::cli) fn tell_next(file: &str) -> anyhow::Result<Done> {
+pub(crate) fn tell_next(file: &str) -> anyhow::Result<Done> {
     let next = [
         ("analyze", "Show what is redundant, and where"),
         ("search", "Find the redesigns that remove it"),
@@ -156,7 +148,7 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
     }
 }
 
-pub(in crate::cli) fn show(a: &Show) -> anyhow::Result<Done> {
+pub(crate) fn show(a: &Show) -> anyhow::Result<Done> {
     let costs = (a.name == COSTS).then(costs::toml);
     let Some(text) = costs.as_deref().or_else(|| builtin::text(&a.name)) else {
         bail!(load::no_built_in(&a.name))
@@ -167,7 +159,7 @@ pub(in crate::cli) fn show(a: &Show) -> anyhow::Result<Done> {
     })
 }
 
-pub(in crate::cli) fn schema() -> anyhow::Result<Done> {
+pub(crate) fn schema() -> anyhow::Result<Done> {
     output::to(None, |out| {
         writeln!(out, "{:#}", crate::file::schema::json_schema())?;
         Ok(Done::Found)

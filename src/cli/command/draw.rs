@@ -1,18 +1,13 @@
 //! `ozols draw`.
 
-use crate::cli::option::named::File;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
-use crate::cli::option::{Global, load, picture, variant};
-use crate::cli::terminal::{Done, output};
+use crate::cli::option::{picture, variant};
+use crate::cli::prelude::*;
 use crate::draw::{self, Drawing, Sight, Size, Subject};
-use crate::model::mechanism::StateId;
 use crate::page::moving::Moving;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::Analysis;
-use anyhow::{Context, bail, ensure};
-use clap::{Args as ClapArgs, ValueEnum};
-use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum DrawKind {
@@ -23,7 +18,7 @@ enum DrawKind {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Draw {
+pub(crate) struct Draw {
     #[command(flatten)]
     file: File,
     /// Kind of drawing.
@@ -118,7 +113,7 @@ fn numbers(text: &str) -> Option<[f64; 3]> {
     (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     let wanted = wanted(a)?;
     ensure!(
         a.moves()

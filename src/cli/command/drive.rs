@@ -1,45 +1,41 @@
 //! `ozols drive`.
 
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, TextOrJson, load};
-use crate::cli::terminal::{Done, charts, output};
+use crate::cli::prelude::*;
+use crate::cli::terminal::charts;
 use crate::drive::driving::drive;
 use crate::drive::shares;
 use crate::file::read::workload::drive_from_bytes;
 use crate::view;
-use crate::view::drive::{charts::cam, charts::charts, charts::motion, text};
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, ensure};
-use clap::Args as ClapArgs;
-use std::path::PathBuf;
+use crate::view::drive::charts::{cam, charts, motion};
+use crate::view::drive::text;
 
 /// Maximum number of samples; each may take [`PATIENCE`](crate::drive::programme::PATIENCE) swings.
 const MOST_SAMPLES: usize = 1_000_000;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Drive {
+pub(crate) struct Drive {
     #[command(flatten)]
-    pub(in crate::cli) file: File,
+    pub(crate) file: File,
     /// Also report the share of swings that latch if stiffness, inertia, losses, cam and latches vary by up to this fraction:
     /// 0.05 is 5 %.
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
-    pub(in crate::cli) tolerance: Option<f64>,
+    pub(crate) tolerance: Option<f64>,
     /// Number of samples.
     #[arg(long, value_name = "N", requires = "tolerance", default_value = "200")]
-    pub(in crate::cli) samples: usize,
+    pub(crate) samples: usize,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: TextOrJson,
+    pub(crate) format: TextOrJson,
     /// Also write to this folder: charts as SVG and CSV, the cam's profile as SVG, CSV and DXF, and the payload's motion on the
     /// first disc for `ozols grip --motion`.
     #[arg(long, value_name = "DIR")]
-    pub(in crate::cli) svg: Option<PathBuf>,
+    pub(crate) svg: Option<PathBuf>,
     /// Write to a file instead of standard output.
     #[arg(long, short, value_name = "FILE")]
-    pub(in crate::cli) output: Option<PathBuf>,
+    pub(crate) output: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
     let file = drive_from_bytes(&name, &bytes)?;
     let found = drive(&file.spec)?;

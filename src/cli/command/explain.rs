@@ -2,19 +2,14 @@
 
 mod pair;
 
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::format::did_you_mean;
 use crate::model::joint_type::JointType;
 use crate::terms::{GlossaryTerm, Terms};
-use crate::view::terminal::layout::table;
-use anyhow::{bail, ensure};
-use clap::Args as ClapArgs;
-use itertools::Itertools;
 use std::io::Write;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Explain {
+pub(crate) struct Explain {
     /// Term, such as sigma, σ or redundant constraint, or joint type, such as sphere-in-cylinder [default: list all].
     #[arg(value_name = "TERM")]
     term: Vec<String>,
@@ -26,7 +21,7 @@ pub(in crate::cli) struct Explain {
 /// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;
 
-pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &Explain) -> anyhow::Result<Done> {
     let terms = Terms::builtin();
     let word = a.term.join(" ");
     if word.trim().is_empty() {

@@ -1,31 +1,23 @@
 //! `ozols export`.
 
 use crate::cli::command::types::changed;
-use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
 use crate::cli::option::request::Which;
+use crate::cli::option::variant;
 use crate::cli::option::variant::{Chosen, tell};
-use crate::cli::option::{Global, load, variant};
-use crate::cli::terminal::progress::note;
-use crate::cli::terminal::{Done, output};
-use crate::model::mechanism::Mechanism;
+use crate::cli::prelude::*;
 use crate::redundancy::release::Release;
 use crate::robots::formats::{self, Format, FormattedFile};
 use crate::robots::{self, Imported};
 use crate::view::lint::words;
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::ensure;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
 
 /// The formats of the mechanism file: TOML, which holds exact numbers, and the same as JSON.
 const TOML: &str = "toml";
 const JSON: &str = "json";
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Export {
+pub(crate) struct Export {
     /// A path, `-`, or the name of a built-in mechanism. A robot description (URDF, MJCF or SDF, by its root element) or CAD
     /// assembly (FreeCAD's .FCStd, OndselSolver's .asmt) is read according to the options below.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -52,7 +44,7 @@ fn written() -> PossibleValuesParser {
     PossibleValuesParser::new(formats::written().map(value))
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     if formats::is_own(&a.to) {
         return own(a);
     }
@@ -151,11 +143,7 @@ fn own(a: &Export) -> anyhow::Result<Done> {
 }
 
 /// Converts a mechanism to a format and reports what is lost, after the notes of the import.
-pub(in crate::cli) fn text(
-    m: &Mechanism,
-    to: &str,
-    left_behind: Option<String>,
-) -> anyhow::Result<String> {
+pub(crate) fn text(m: &Mechanism, to: &str, left_behind: Option<String>) -> anyhow::Result<String> {
     let FormattedFile { text, told } = formats::export(m, to)?;
     let told = left_behind.into_iter().chain(told);
     let told: String = told.map(|t| format!("  {t}\n")).collect();

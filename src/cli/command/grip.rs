@@ -1,9 +1,8 @@
 //! `ozols grip`.
 
 use crate::api::MAX_DESCRIPTION_BYTES;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, TextOrJson, load};
-use crate::cli::terminal::{Done, charts, output};
+use crate::cli::prelude::*;
+use crate::cli::terminal::charts;
 use crate::file::disk;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
@@ -12,20 +11,14 @@ use crate::grip::force_closure::{closure, shares};
 use crate::grip::grip;
 use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::contact::object_at;
-use crate::view::grip::GripReport;
 use crate::view::grip::charts::charts;
 use crate::view::grip::closure::ClosureData;
 use crate::view::grip::motion::GripMotion;
-use crate::view::grip::text;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail, ensure};
-use clap::Args as ClapArgs;
-use std::path::{Path, PathBuf};
+use crate::view::grip::{GripReport, text};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Grip {
+pub(crate) struct Grip {
     #[command(flatten)]
     file: File,
     /// Additional acceleration of the gripper in m/s², in its axes, such as 5,0,-2 (repeatable).
@@ -72,7 +65,7 @@ fn vector(text: &str) -> Result<[f64; 3], String> {
         .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     if a.closure {
         return run_closure(args, a);
     }

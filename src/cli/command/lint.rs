@@ -1,14 +1,10 @@
 //! `ozols lint`.
 
 use crate::cli::command::types;
-use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
-use crate::cli::option::{TextOrJson, load};
-use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
 use crate::redundancy::duplicate_constraints::{HeldTwice, held_twice};
@@ -16,14 +12,9 @@ use crate::redundancy::other_poses::Where;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::lint::{self, Lint as Found, PassedOver};
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Lint {
+pub(crate) struct Lint {
     /// Robot descriptions (URDF, MJCF, SDF), CAD assemblies (FreeCAD, OndselSolver), or mechanism files.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required = true)]
     files: Vec<Named>,
@@ -37,7 +28,7 @@ pub(in crate::cli) struct Lint {
     output: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &Lint) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     // A file that cannot be looked at takes nothing from the others.
     let mut failed = false;
@@ -134,7 +125,7 @@ fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
 }
 
 /// Finds the redundant constraints of a mechanism. Drives, and joints that no format can change, stay unchanged.
-pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
+pub(crate) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
     look_at(m, origin, &|r| match *r {
         Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
         Release::Coupling(_) => true,
@@ -142,12 +133,12 @@ pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Re
 }
 
 /// Returns true if a joint is a drive, or is moved by an actuator that a mechanism cannot represent.
-pub(in crate::cli) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
+pub(crate) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
     m.joints[joint].drive || origin.is_some_and(|o| o.is_actuated(joint))
 }
 
 /// Finds the redundant constraints, with only the given releases.
-pub(in crate::cli) fn look_at(
+pub(crate) fn look_at(
     m: &Mechanism,
     origin: Option<&Origin>,
     wanted: &dyn Fn(&Release) -> bool,

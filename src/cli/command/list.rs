@@ -1,15 +1,12 @@
 //! `ozols list`.
 
 use crate::builtin;
-use crate::cli::terminal::{Done, output};
-use crate::format::csv;
-use crate::format::did_you_mean;
-use crate::view::terminal::layout::{fit, table};
-use clap::{Args as ClapArgs, ValueEnum};
+use crate::cli::prelude::*;
+use crate::format::{csv, did_you_mean};
 use serde::{Deserialize, Serialize};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct List {
+pub(crate) struct List {
     /// List only mechanisms with all of these words in name, family or description.
     #[arg(value_name = "WORD")]
     words: Vec<String>,
@@ -48,7 +45,7 @@ struct ListRow {
 /// Minimum width of a column of descriptions.
 const NARROWEST: usize = 16;
 
-pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &List) -> anyhow::Result<Done> {
     let rows = wanted(a)?;
     if rows.is_empty() {
         let hint = did_you_mean::hint(&a.words.join("-"), builtin::names());
@@ -72,7 +69,7 @@ pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
 }
 
 /// Lists all of them for people.
-pub(in crate::cli) fn all() -> anyhow::Result<Done> {
+pub(crate) fn all() -> anyhow::Result<Done> {
     run(&List {
         words: Vec::new(),
         format: ListFormat::Text,

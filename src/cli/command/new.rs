@@ -2,18 +2,13 @@
 
 use crate::builtin;
 use crate::cli::command::list;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::template;
 use crate::model::mechanism::Role;
-use anyhow::{Context, bail};
-use clap::{Args as ClapArgs, ValueHint};
-use itertools::Itertools;
 use std::io::{BufRead, IsTerminal};
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct New {
+pub(crate) struct New {
     /// File to write, with the ending .toml; the mechanism is named after it. If omitted, questions lead to a template.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Option<PathBuf>,
@@ -25,7 +20,7 @@ pub(in crate::cli) struct New {
     force: bool,
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
     if let Some(file) = &a.file {
         let from = a.from.as_deref().unwrap_or("four-bar");
         return write(args, file, from, a.force);

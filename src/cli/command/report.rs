@@ -1,11 +1,8 @@
 //! `ozols report`.
 
-use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::progress::{SearchWatch, note};
-use crate::cli::terminal::{Done, interrupt, output};
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::cli::prelude::*;
+use crate::cli::terminal::progress::SearchWatch;
 use crate::page::scenes::scenes;
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
@@ -15,14 +12,10 @@ use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Request};
 use crate::view::search::nothing_found::wider_commands;
 use crate::view::terminal::next_commands::{file_name, flags, stem};
-use anyhow::ensure;
-use clap::Args as ClapArgs;
-use itertools::Itertools;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Report {
+pub(crate) struct Report {
     #[command(flatten)]
     file: File,
     /// Number of best variants on the page, at most 10000.
@@ -38,7 +31,7 @@ pub(in crate::cli) struct Report {
 /// Maximum number of variants on a page.
 const MOST: usize = 10_000;
 
-pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
     output::not_to_terminal(a.output.as_deref(), "a page")?;
     let request = asked(args, a)?;
     let written = load::mechanism(&a.file)?;

@@ -1,21 +1,15 @@
 //! `ozols search`.
 
-use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::colour::{Tone, toned};
+use crate::cli::prelude::*;
 use crate::cli::terminal::progress::SearchWatch;
-use crate::cli::terminal::{Done, interrupt, machine, memory, output};
+use crate::cli::terminal::{machine, memory};
 use crate::format::{duration, grouped};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Method, Request};
-use crate::view::search::csv;
-use crate::view::search::json;
-use crate::view::search::text;
-use clap::{Args as ClapArgs, ValueEnum};
+use crate::view::search::{csv, json, text};
 use num_traits::Zero;
-use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum SearchFormat {
@@ -37,7 +31,7 @@ enum SearchMethod {
 
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
-pub(in crate::cli) struct Search {
+pub(crate) struct Search {
     #[command(flatten)]
     file: File,
     /// Number of best variants to list.
@@ -113,7 +107,7 @@ impl Search {
     }
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let begun = machine::clock();
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file)?;

@@ -1,15 +1,13 @@
 //! `ozols statics`.
 
-pub(in crate::cli) mod args;
+pub(crate) mod args;
 
 use crate::cli::command::clamped;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, charts, output};
+use crate::cli::prelude::*;
+use crate::cli::terminal::charts;
 use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
@@ -17,15 +15,12 @@ use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
 use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve};
 use crate::view::grip::clamped::NotHeld;
+use crate::view::statics::force_plans::plans;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
-use crate::view::statics::{Structures, charts as drawn, force_plans::plans, text};
-use crate::view::terminal::layout::table;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail};
+use crate::view::statics::{Structures, charts as drawn, text};
 use args::{Statics, StaticsFormat, StaticsMethod};
-use std::path::Path;
 
-pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let file = a.file.clone().unwrap_or_else(|| "parallel-shears".into());
     let loops = a.loops.clone();
     let mut m = load::mechanism(&File { file, loops })?;

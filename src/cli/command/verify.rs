@@ -1,22 +1,15 @@
 //! `ozols verify`, and the certificates that `ozols analyze` writes for it.
 
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::disk;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::certificate::{certify, matrix, number_field};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::verify::certificate::{CertificateFile, FORMAT, Without};
 use crate::verify::check;
-use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
 use std::io::Write;
-use std::path::Path;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Verify {
+pub(crate) struct Verify {
     #[command(flatten)]
     file: File,
     /// Certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
@@ -32,7 +25,7 @@ const MOST: usize = 64 << 20;
 
 /// Writes a certificate for each state that has one. A certificate proves the rank as written, so there is none if another
 /// geometry was analysed.
-pub(in crate::cli) fn write(
+pub(crate) fn write(
     path: &Path,
     m: &Mechanism,
     states: &[StateId],
@@ -78,7 +71,7 @@ pub(in crate::cli) fn write(
     Ok(())
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut m);

@@ -35,7 +35,7 @@ enum Drives {
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
 #[command(next_help_heading = "Selecting variants")]
-pub(in crate::cli) struct Which {
+pub(crate) struct Which {
     /// Maximum number of redundant constraints left within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     max_redundant: u32,
@@ -110,12 +110,12 @@ pub(in crate::cli) struct Which {
     /// Memory limit of the search, for example 500M or 2G [default: a quarter of the machine's memory]. If it is reached, counts
     /// are lower bounds, as with --nodes.
     #[arg(long, value_name = "BYTES", value_parser = memory::bytes)]
-    pub(in crate::cli) memory: Option<usize>,
+    pub(crate) memory: Option<usize>,
 }
 
 /// Options that select variants, the state, and the checks.
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Checked {
+pub(crate) struct Checked {
     #[command(flatten)]
     which: Which,
     /// State to include in the search, in addition to the free one [default with --max-external or --max-harmful: the first of
@@ -125,7 +125,7 @@ pub(in crate::cli) struct Checked {
     /// Check each listed variant (up to 1000) in N further poses of the original motion, and mark those with a different W, σ or
     /// output motion.
     #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(in crate::cli) poses: usize,
+    pub(crate) poses: usize,
     /// Check of the search.
     #[arg(long, value_enum, default_value = "full")]
     check: Check,
@@ -133,7 +133,7 @@ pub(in crate::cli) struct Checked {
 
 impl Which {
     /// Builds the request, about a state if one is named.
-    pub(in crate::cli) fn request(&self, state: Option<&str>) -> anyhow::Result<Request> {
+    pub(crate) fn request(&self, state: Option<&str>) -> anyhow::Result<Request> {
         let joint_options = |rule: &String| match rule.split_once('=') {
             Some((joint, names)) => JointOptions {
                 joint: joint.to_owned(),
@@ -209,7 +209,7 @@ fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
 
 impl Checked {
     /// Builds the request, with the seed of its samples and poses.
-    pub(in crate::cli) fn request(&self, seed: u64) -> anyhow::Result<Request> {
+    pub(crate) fn request(&self, seed: u64) -> anyhow::Result<Request> {
         Ok(Request {
             check: match self.check {
                 Check::None => request::Check::None,

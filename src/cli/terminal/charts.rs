@@ -4,13 +4,13 @@ use crate::chart::{Chart, page};
 use crate::cli::terminal::{Done, output};
 
 /// A drawing next to the charts.
-pub(in crate::cli) struct ChartDrawing {
+pub(crate) struct ChartDrawing {
     /// Name of its files, without ending.
-    pub(in crate::cli) name: String,
+    pub(crate) name: String,
     /// Title of the drawing.
-    pub(in crate::cli) title: String,
+    pub(crate) title: String,
     /// Its texts by ending, including svg.
-    pub(in crate::cli) files: Vec<(&'static str, String)>,
+    pub(crate) files: Vec<(&'static str, String)>,
 }
 
 use anyhow::Context;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Writes `NAME.svg` and `NAME.csv` of each chart, and a page of all if a title is given. Creates the folder if it is missing.
 /// Drawings come last.
-pub(in crate::cli) fn write(
+pub(crate) fn write(
     folder: &Path,
     title: Option<&str>,
     charts: &[(String, Chart)],

@@ -16,24 +16,24 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Says what a search noticed.
-pub(in crate::cli) fn note(text: String) {
+pub(crate) fn note(text: String) {
     output::note(&format!("{text}\n"));
 }
 
 /// Watches a search: shows its progress, and ends it early at a signal.
-pub(in crate::cli) struct SearchWatch {
+pub(crate) struct SearchWatch {
     bar: Bar,
     quiet: bool,
 }
 
 impl SearchWatch {
-    pub(in crate::cli) fn new(quiet: bool) -> SearchWatch {
+    pub(crate) fn new(quiet: bool) -> SearchWatch {
         let bar = Bar::new(quiet);
         SearchWatch { bar, quiet }
     }
 
     /// Searches a mechanism.
-    pub(in crate::cli) fn run(
+    pub(crate) fn run(
         &mut self,
         mechanism: Mechanism,
         request: &Request,
@@ -44,7 +44,7 @@ impl SearchWatch {
     }
 
     /// Searches one that is prepared.
-    pub(in crate::cli) fn answer(
+    pub(crate) fn answer(
         &mut self,
         mechanism: Arc<Mechanism>,
         conditions: Conditions,
@@ -86,14 +86,14 @@ impl SearchWatch {
 }
 
 /// A bar that shows the progress of a run.
-pub(in crate::cli) struct Bar {
+pub(crate) struct Bar {
     bar: Option<ProgressBar>,
     begun: Instant,
     wanted: bool,
 }
 
 impl Bar {
-    pub(in crate::cli) fn new(quiet: bool) -> Self {
+    pub(crate) fn new(quiet: bool) -> Self {
         Bar {
             bar: None,
             begun: Instant::now(),
@@ -126,7 +126,7 @@ impl Bar {
     }
 
     /// Shows how far a run of known length has come.
-    pub(in crate::cli) fn step(&mut self, what: &str, done: usize, of: usize) {
+    pub(crate) fn step(&mut self, what: &str, done: usize, of: usize) {
         spinner::rest();
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
@@ -144,7 +144,7 @@ impl Bar {
         bar.set_message(what.to_owned());
     }
 
-    pub(in crate::cli) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }

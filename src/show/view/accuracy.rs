@@ -7,10 +7,9 @@ use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
 use crate::accuracy::stability::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::{duration, grouped, signed};
+use crate::format::{duration, signed};
 use crate::rank::method::{MobilityMethod, registry};
-use crate::view::terminal::layout::{fit, table};
-use serde::Serialize;
+use crate::view::prelude::*;
 use std::cmp::Reverse;
 use std::fmt::Write;
 

@@ -10,7 +10,6 @@ pub(crate) mod text;
 
 use crate::geom::expr::PI_DIGITS;
 use crate::model::claim::Topic;
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External, StateAnalysis};
@@ -19,10 +18,8 @@ use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::suggestions::Advice;
 use crate::view::claims::about;
+use crate::view::prelude::*;
 use crate::view::stroke::StrokeData;
-use crate::view::{as_read, joined, kind};
-use itertools::Itertools;
-use serde_json::{Value, json};
 
 /// The analysis of a mechanism.
 #[derive(Debug)]

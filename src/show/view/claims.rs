@@ -1,8 +1,7 @@
 //! What publications say of the mechanism they show: confirmed, or what is right instead.
 
-use crate::format::plural;
 use crate::model::claim::{Claim, Topic};
-use crate::view::terminal::layout::table;
+use crate::view::prelude::*;
 
 /// Those about a topic, in the order of the file.
 #[must_use]

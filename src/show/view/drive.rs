@@ -14,8 +14,7 @@ use crate::file::read::workload::WorkloadFile;
 use crate::model::claim::Topic;
 use crate::model::drive::DriveSpec;
 use crate::view::claims::about;
-use crate::view::joined;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// A drive of a file and what was found of it.
 #[derive(Debug)]

@@ -17,8 +17,7 @@ use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
 use crate::view::claims::about;
 use crate::view::grip::motion::GripMotion;
-use crate::view::joined;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// What a gripper can hold.
 #[derive(Debug)]

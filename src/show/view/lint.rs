@@ -7,17 +7,13 @@ pub use assembly::{Misfit, TypeChange};
 pub use finding::PassedOver;
 pub use finding::{Finding, words};
 
-use assembly::{count, then};
-use finding::LintWords;
-
-use crate::format::plural;
-use crate::model::mechanism::Mechanism;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
 use crate::robots::{CadCount, Imported, Origin, Report};
-use crate::view::{as_read, kind, with_assumptions};
-use serde::Serialize;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
+use crate::view::with_assumptions;
+use assembly::{count, then};
+use finding::LintWords;
 
 /// Notes told of how a file was read.
 const NOTES: usize = 6;

@@ -7,12 +7,11 @@ pub mod stroke;
 pub mod text;
 
 use crate::format::csv::table;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::contact::{ContactForce, Touch};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{CouplingReaction, JointReaction, Solution, Uniqueness};
+use crate::view::prelude::*;
 use crate::view::reactions::couplings::{CouplingForces, couplings, unit};
-use serde::Serialize;
 
 /// Reactions in one pose.
 #[derive(Debug, Serialize)]

@@ -11,7 +11,7 @@ pub(crate) mod numeric;
 pub(crate) mod ranking;
 pub(crate) mod second_opinion;
 pub(crate) mod stopped_early;
-pub(in crate::view) mod table;
+pub(crate) mod table;
 pub mod text;
 pub(crate) mod variant;
 pub(crate) mod why;

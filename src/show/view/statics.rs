@@ -8,7 +8,6 @@ pub mod text;
 pub mod told;
 
 use crate::model::claim::{Claim, Topic};
-use crate::model::mechanism::Mechanism;
 use crate::statics::assur::{self, Decomposition};
 use crate::statics::contour_group::delta_point::DeltaSteps;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
@@ -17,8 +16,7 @@ use crate::statics::cycle::{self, Moment};
 use crate::statics::kinetostatics::{self, LinkInertia, Worth};
 use crate::statics::planar::{BodyId, PairId, PlanarMechanism};
 use crate::view::claims::about;
-use itertools::Itertools;
-use serde::Serialize;
+use crate::view::prelude::*;
 
 /// A mechanism's reactions over its cycle.
 #[derive(Debug, Serialize)]

@@ -1,14 +1,11 @@
 //! A stroke as JSON, as a table and as a chart.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::format::{decimals, plural};
-use crate::model::mechanism::Mechanism;
+use crate::format::decimals;
 use crate::motion::follow::Stop;
 use crate::rank::stroke::analysis::{Output, PoseFigures, RankChange, StrokeFigures};
 use crate::rank::stroke::request::AskedStroke;
-use crate::view::terminal::layout::table;
-use itertools::Itertools;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 use std::fmt::Write;
 
 /// The figures over a stroke; positions in radians or, where the drive slides, in the file's length unit.

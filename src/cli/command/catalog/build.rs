@@ -4,20 +4,15 @@ use super::task::TaskArgs;
 use crate::catalog::build::{build, work};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::cli::option::Global;
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, interrupt, output};
+use crate::cli::prelude::*;
 use crate::file::disk;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
 use crate::view::catalog::structures::built_text;
-use anyhow::{Context, ensure};
-use clap::{Args as ClapArgs, ValueHint};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Build {
+pub(crate) struct Build {
     /// Numbers of links, such as 4..8 (the last included); chains of mobility 1 have an even number, with gears and slots any.
     #[arg(long, value_name = "N..M")]
     links: Option<String>,

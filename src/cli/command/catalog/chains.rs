@@ -6,21 +6,15 @@ use crate::chains::census::{census, pair_census};
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
 use crate::chains::sharing::Menu;
 use crate::chains::symmetric_census::symmetric_census;
-use crate::cli::option::{Global, TextJsonOrCsv};
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::format::csv::records;
 use crate::view::catalog::counts::{
     ChainData, chains_text, hinged_row, hinged_text, pair_rows, pair_text, symmetric_rows,
     symmetric_text,
 };
-use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
-use itertools::Itertools;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 struct PairArgs {
@@ -130,7 +124,7 @@ impl Listing {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Count {
+pub(crate) struct Count {
     /// Number of links, or a range such as 4..10, its end included.
     #[arg(long, value_name = "N..M", default_value = "4..8", value_parser = links)]
     links: RangeInclusive<usize>,
@@ -144,7 +138,7 @@ pub(in crate::cli) struct Count {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Chains {
+pub(crate) struct Chains {
     /// Number of links.
     #[arg(long, value_name = "N", default_value_t = 8)]
     links: usize,

@@ -5,9 +5,7 @@ use crate::api::Scheme;
 use crate::catalog::find::entries;
 use crate::catalog::neighbours::neighbours;
 use crate::catalog::store::Store;
-use crate::cli::option::named::File;
-use crate::cli::option::{TextJsonOrCsv, load};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
 use crate::search::Search;
@@ -17,12 +15,9 @@ use crate::synthesis::recognize::recognize;
 use crate::view::catalog::find::{FoundData, InCatalogue, found_text};
 use crate::view::catalog::query::QueryAnswer;
 use crate::view::catalog::structures::{StructureData, show_text};
-use anyhow::{Context, ensure};
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Query {
+pub(crate) struct Query {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -87,7 +82,7 @@ pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Show {
+pub(crate) struct Show {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -128,7 +123,7 @@ pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Export {
+pub(crate) struct Export {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -171,7 +166,7 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Page {
+pub(crate) struct Page {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -190,7 +185,7 @@ pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Find {
+pub(crate) struct Find {
     #[command(flatten)]
     file: File,
     /// Catalogue to search for the structure.

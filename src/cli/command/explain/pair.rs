@@ -1,14 +1,11 @@
 //! The reference of joint types.
 
 use crate::cli::option::picture;
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::draw::{self, Size};
-use crate::format::{cost, plural};
+use crate::format::cost;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::terms::PairWords;
-use crate::view::terminal::layout::table;
-use itertools::Itertools;
-use std::path::Path;
 
 /// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;

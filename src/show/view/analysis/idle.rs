@@ -1,10 +1,8 @@
 //! What idle motions and faults of the drives are, in words.
 
-use crate::format::{plural, plural_of};
-use crate::model::mechanism::Mechanism;
 use crate::redundancy::drives::DriveFault;
 use crate::redundancy::local_mobility::Idle;
-use itertools::Itertools;
+use crate::view::prelude::*;
 
 /// "link 5 spins about the line through 4-5 and 5-1".
 #[must_use]

@@ -1,10 +1,9 @@
 //! The motions of links and the wrenches of joints, in words and as data.
 
 use crate::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::stress_loads::Borne;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// A component of a direction, or a part of a length, below this is rounding.
 const ROUNDING: f64 = 1e-6;

@@ -1,10 +1,7 @@
 //! What a mechanism file describes, in a few lines and without any analysis.
 
-use crate::format::{grouped, plural, significant};
-use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
 use crate::view::analysis::mobility::StructureSize;
-use crate::view::span;
-use itertools::Itertools;
+use crate::view::prelude::*;
 use num_bigint::BigUint;
 
 /// Names shown of a list.

@@ -2,9 +2,8 @@
 
 use crate::closure::Closure;
 use crate::geom::Reals;
-use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// What a method says of states of a mechanism.
 #[derive(Debug)]

@@ -1,9 +1,9 @@
 //! What to do after an analysis.
 
 use super::State;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::search::answer::single_changes::USUAL_UNLOADING;
 use crate::view::analysis::suggestions::{Advice, concerned};
+use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 
 /// What to do after an analysis of `file`.

@@ -1,14 +1,10 @@
 //! Single changes in words and as data, and what to do after an analysis.
 
-use crate::format::cost;
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::Certainty;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::answer::single_changes::{self, Suggestion, single_changes};
-use crate::view::terminal::layout::table;
-use itertools::Itertools;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// Rows of a table at most.
 const ROWS: usize = 5;

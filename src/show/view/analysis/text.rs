@@ -1,15 +1,12 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
 use super::{Analysis, State, agrees, axes, harm};
-use crate::format::{list, plural, plural_of};
 use crate::model::claim::Topic;
-use crate::model::mechanism::{LinkId, Role};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::{idle, link_motions, suggestions};
-use crate::view::terminal::layout::{fit, table};
-use crate::view::{as_read, claims, span};
-use itertools::Itertools;
+use crate::view::claims;
+use crate::view::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

@@ -5,11 +5,10 @@ use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
 use crate::chains::symmetric_census::SymmetricKind;
-use crate::format::grouped;
-use crate::view::terminal::layout::{fit, table};
-use itertools::{Itertools, iproduct};
+use crate::view::prelude::*;
+use itertools::iproduct;
+use serde::Serializer;
 use serde::ser::SerializeStruct;
-use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 
 /// A cell of a row.

@@ -8,11 +8,8 @@ use crate::chains::classics::{Classic, classics_of};
 use crate::chains::motion::moves_throughout;
 use crate::chains::roles::{Roles, Subject, Symmetries};
 use crate::chains::structure::PairStructure;
-use crate::format::significant;
 use crate::synthesis::recognize::Recognized;
-use crate::view::terminal::layout::fit;
-use itertools::Itertools;
-use serde::Serialize;
+use crate::view::prelude::*;
 
 /// What a mechanism is as a structure: the keys are a stable contract, in this order.
 #[derive(Debug, Clone, Serialize)]

@@ -1,10 +1,9 @@
 //! Answers to questions in SQL: as a table for people, whose heads have units, as JSON and as CSV.
 
+use crate::format::csv;
 use crate::format::plain::plain;
-use crate::format::{csv, grouped, significant};
-use crate::view::terminal::layout::table;
+use crate::view::prelude::*;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
-use serde_json::Value;
 
 /// The answer to a question: as JSON a list of objects.
 #[derive(Debug, Clone)]

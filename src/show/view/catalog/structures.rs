@@ -2,12 +2,10 @@
 
 use crate::catalog::store::{Store, StoreError};
 use crate::format::plain::plain;
-use crate::format::{grouped, plural_of};
 use crate::terms::PairWords;
 use crate::view::catalog::query::{QueryAnswer, cell};
-use crate::view::terminal::layout::{fit, table};
-use itertools::Itertools;
-use serde_json::{Map, Value};
+use crate::view::prelude::*;
+use serde_json::Map;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;

@@ -2,8 +2,7 @@
 
 use crate::drive::RunShares;
 use crate::drive::programme::PATIENCE;
-use crate::format::{plural, significant};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

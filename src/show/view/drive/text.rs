@@ -4,12 +4,10 @@ use crate::drive::driving::{CamDesign, DampingFrom, Design};
 use crate::drive::programme::{Endurance, Event, PATIENCE};
 use crate::drive::swing::End;
 use crate::drive::torsion::{Remedy, decrement, stored_energy};
-use crate::format::{plural, significant};
 use crate::model::claim::Topic;
 use crate::view::claims::{self, about};
 use crate::view::drive::{Drive, feed_moments, samples};
-use crate::view::span;
-use crate::view::terminal::layout::{fit, table};
+use crate::view::prelude::*;
 use std::fmt::Write;
 
 /// Rows of the programme shown before the rest is left out.

@@ -1,19 +1,15 @@
 //! What a grip loads its mechanism with: one value from which text and JSON are made. Forces in N on the part, in the
 //! grip's own axes.
 
-use crate::format::significant;
 use crate::grip::clamped;
 use crate::grip::clamping::{DiameterRow, Hardest};
 use crate::grip::holding::ContactForce;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::view::grip::reasons;
 use crate::view::grip::text::effort_of_drive;
-use crate::view::joined;
-use crate::view::terminal::layout::table;
-use serde::{Serialize, Serializer};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
+use serde::Serializer;
 use std::fmt::Write;
 
 /// The loads from a grip round one part.

@@ -1,15 +1,11 @@
 //! How firmly contacts hold a part: one value from which text and JSON are made. Loads are by the sum of the normal forces;
 //! moments count by the part's size. The keys are a stable contract.
 
-use crate::format::{plural, significant};
 use crate::geom::vector::{length, scale};
 use crate::grip::clamped_part::ClampedPart;
 use crate::grip::faces::{JawFace, PressureArea};
 use crate::grip::force_closure::{ClosureShares, ForceClosure, NOTHING};
-use crate::model::mechanism::Mechanism;
-use crate::view::span;
-use crate::view::terminal::layout::{fit, table};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 use std::fmt::Write;
 
 /// What the contacts of a state hold.

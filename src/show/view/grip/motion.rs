@@ -1,12 +1,10 @@
 //! The clamping force along a motion: one value from which text, JSON and a chart are made. SI units.
 
 use crate::chart::{Axis, Chart, Series, Style};
-use crate::format::{plural, significant};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
-use crate::view::terminal::layout::{fit, table};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 use std::fmt::Write;
 
 /// Rows shown before the rest is left out.

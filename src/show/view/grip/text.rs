@@ -1,6 +1,5 @@
 //! A gripper for people: whether it holds, with what drive, and why.
 
-use crate::format::{plural, significant};
 use crate::grip::clamping::DiameterRow;
 use crate::grip::contact::TouchingPose;
 use crate::grip::holding::Holding;
@@ -8,7 +7,7 @@ use crate::model::claim::Topic;
 use crate::model::grip::{LeverDrive, PartMass, Pivots, Toward};
 use crate::view::claims;
 use crate::view::grip::{GripReport, reasons};
-use crate::view::terminal::layout::{fit, table};
+use crate::view::prelude::*;
 use std::fmt::Write;
 
 /// The report, fitted to a terminal of `width` columns where one is given.

@@ -1,10 +1,9 @@
 //! What is said of joints of CAD assemblies besides: misfits and other types.
 
 use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::release::Release;
 use crate::robots::Origin;
-use serde::Serialize;
+use crate::view::prelude::*;
 
 /// Another type for a joint of a CAD assembly.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -1,16 +1,13 @@
 //! A redundant constraint of a robot description in words, and a file that nothing can be said of but why.
 
 use super::assembly::{Misfit, TypeChange};
+use crate::format::brief;
 use crate::format::plain::line;
-use crate::format::{brief, cost};
 use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
 use crate::robots::{ElementPlace, Origin};
-use itertools::Itertools;
-use serde::Serialize;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// Remedies told of each finding.
 const REMEDIES: usize = 3;

@@ -1,11 +1,8 @@
 //! What couplings pass from joint to joint, beside the reactions of the joints.
 
-use crate::format::{figure, list};
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{CouplingReaction, ToothForce};
-use crate::view::terminal::layout::table;
-use serde::Serialize;
+use crate::view::prelude::*;
 use std::fmt::Write;
 
 /// What a coupling passes.

@@ -1,14 +1,12 @@
 //! Joint reactions over a stroke.
 
 use crate::format::csv::table;
-use crate::format::{figure, plural};
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
+use crate::view::prelude::*;
 use crate::view::reactions::text::ADD_LOADS;
 use crate::view::reactions::{HEADS, JointForces, Reactions, couplings};
-use crate::view::terminal::layout::{prefix, table as text_table};
-use serde::Serialize;
+use crate::view::terminal::layout::table as text_table;
 use std::fmt::Write;
 
 /// Reactions by position of the first drive.

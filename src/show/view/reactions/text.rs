@@ -1,9 +1,8 @@
 //! Joint reactions in one pose for people.
 
-use crate::format::{figure, list, plural, significant};
 use crate::statics::reactions::NEARLY_SINGULAR;
+use crate::view::prelude::*;
 use crate::view::reactions::{JointForces, ObjectContact, Reactions, couplings};
-use crate::view::terminal::layout::{fit, prefix, table};
 use std::fmt::Write;
 
 /// The remedy for a file that states no loads.

@@ -1,15 +1,11 @@
 //! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
-use crate::format::{grouped, plural, plural_of};
-use crate::model::mechanism::Mechanism;
-use crate::score::outcome::Outcome;
 use crate::score::request::List;
 use crate::search::check::second_prime::Verdict;
 use crate::search::question::throughout::PoseOnly;
+use crate::view::prelude::*;
 use crate::view::search::conditions::in_state;
 use crate::view::search::{numeric, second_opinion, stopped_early};
-use crate::view::terminal::layout::{fit, table};
-use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,19 +1,15 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
-use crate::format::cost;
 use crate::format::csv::encoded;
-use crate::model::mechanism::JointId;
 use crate::model::ranking::Term;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
 use crate::search::Search;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::diagram::Stop;
 use crate::search::question::space::choice_name;
-use crate::view::search::numeric;
-use crate::view::search::second_opinion;
-use itertools::Itertools;
+use crate::view::prelude::*;
+use crate::view::search::{numeric, second_opinion};
 use std::io::{self, Write};
 use std::iter;
 

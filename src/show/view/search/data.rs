@@ -1,20 +1,17 @@
 //! A search as data: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
 
-use crate::format::cost;
-use crate::model::mechanism::JointId;
 use crate::rank::rounded::verdict::RankVerdict;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::prepare::LooksRounded;
 use crate::search::answer::why_none::Relaxation;
 use crate::search::diagram::{Diagram, Stop};
+use crate::view::prelude::*;
 use crate::view::search::second_opinion::certainty;
 use crate::view::search::stopped_early::estimate;
 use crate::view::search::{numeric, ranking, second_opinion, variant};
 use num_bigint::BigUint;
 use num_traits::Zero;
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Counts by a property.

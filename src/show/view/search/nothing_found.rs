@@ -1,13 +1,10 @@
 //! If nothing is found: the reasons in words, and the requests that find something.
 
-use crate::format::{grouped, list, plural_of};
-use crate::model::mechanism::{JointId, Mechanism};
-use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::{Remarks, eased};
 use crate::score::request::Request;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, flags};
-use itertools::Itertools;
 
 /// Returns why no variant can be found, a sentence for each reason; empty if some may be.
 #[must_use]

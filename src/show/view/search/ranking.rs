@@ -1,13 +1,9 @@
 //! A ranking in words and as data.
 
-use crate::format::{cost, grouped, plural, significant};
-use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{Order, Term};
 use crate::score::evaluation::load_cases::Gripped;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
-use crate::view::joined;
-use itertools::Itertools;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// Reasons told at most.
 const REASONS: usize = 10;

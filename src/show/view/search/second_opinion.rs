@@ -1,16 +1,14 @@
 //! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
 
-use crate::format::grouped;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
-use crate::view::{AS_READ, span, with_assumptions};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
+use crate::view::{AS_READ, with_assumptions};
 
 /// How sure counts are that are not exact though no budget cut them short.
-pub(in crate::view) fn certainty(outcome: &Outcome) -> Option<&'static str> {
+pub(crate) fn certainty(outcome: &Outcome) -> Option<&'static str> {
     if !outcome.search.mechanism.assumed.is_empty() {
         return Some(AS_READ);
     }
@@ -131,7 +129,7 @@ fn agreed(said: &SecondOpinion) -> String {
 
 /// Returns the second opinion as data; `scenes` are the least and the most (determinate, admissible) of those that the digits do not
 /// rule out, where they differ.
-pub(in crate::view) fn data(outcome: &Outcome) -> Option<Value> {
+pub(crate) fn data(outcome: &Outcome) -> Option<Value> {
     let said = outcome.second.as_ref()?;
     let contradiction = said.contradiction.as_ref().map(|c| {
         let [least, most] = c.numeric;

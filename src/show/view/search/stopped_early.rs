@@ -1,12 +1,10 @@
 //! A search that ended before everything was looked at: what is known all the same.
 
-use crate::format::grouped;
-use crate::score::outcome::Outcome;
 use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::singular_values::Summary;
 use crate::search::diagram::Stop;
+use crate::view::prelude::*;
 use num_bigint::BigUint;
-use serde_json::{Value, json};
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
 #[must_use]
@@ -94,7 +92,7 @@ pub(crate) fn proven(summary: &Summary) -> Option<String> {
 }
 
 /// Returns an estimate as data; `between` is the interval with a confidence of 95 %.
-pub(in crate::view) fn estimate(e: &Estimate) -> Value {
+pub(crate) fn estimate(e: &Estimate) -> Value {
     let Drawn { of, found } = e.drawn;
     json!({
         "mean": e.mean,

@@ -1,19 +1,12 @@
 //! Variants as a table for people, and σ of their contours.
 
-use crate::format::{cost, grouped};
-use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{Variant, in_words};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Opinion, Second};
+use crate::view::prelude::*;
 use crate::view::search::ranking;
-use crate::view::terminal::layout::{fit, table};
-use itertools::Itertools;
 
 /// Some variants as a table.
-pub(in crate::view) fn variants(
-    outcome: &Outcome,
-    best: &[Variant<'_>],
-    width: Option<u16>,
-) -> String {
+pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> String {
     let ranking = outcome.ranking.as_ref();
     let checked = best.iter().any(|v| *v.second() != Second::Unasked);
     let counted = outcome.is_counted() || outcome.is_numeric_whole();
@@ -53,7 +46,7 @@ pub(in crate::view) fn variants(
 }
 
 /// σ contour by contour of some variants, those alike together.
-pub(in crate::view) fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
+pub(crate) fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
     let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
     for v in best {
         let shares = v.redundant_by_contour().into_iter().flatten();

@@ -1,20 +1,17 @@
 //! A search for people.
 
-use crate::format::{grouped, plural};
 use crate::robots::is_description;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::score::request::{List, Request};
 use crate::search::check::singular_values::{NEARLY_SINGULAR, Second, Summary};
+use crate::view::prelude::*;
 use crate::view::search::counts::counts;
 use crate::view::search::nothing_found::{hopeless, wider_commands};
 use crate::view::search::table::{contours, variants};
 use crate::view::search::{counts, ranking, stopped_early, variant, why};
-use crate::view::terminal::layout::fit;
 use crate::view::terminal::next_commands::{self, NextCommand, file_name};
-use itertools::Itertools;
 use num_traits::Zero;
 use std::io;
 

@@ -1,17 +1,14 @@
 //! A variant as data, by the same contract as the search it is of, and the cheapest symmetric redesigns for people and as data.
 
-use crate::format::cost;
-use crate::model::mechanism::Mechanism;
 use crate::redundancy::contour_shares::ContourShare;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
 use crate::score::outcome::variant::{Change, Variant, changes, in_words};
 use crate::search::Search;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::{Figures, OverStroke};
+use crate::view::prelude::*;
 use crate::view::search::ranking;
 use serde::ser::{Serialize, SerializeMap, Serializer};
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// One variant of an outcome, written key by key, since there may be millions.
@@ -105,7 +102,7 @@ fn changed(m: &Mechanism, changes: Vec<Change>) -> Vec<ChangeData<'_>> {
 }
 
 /// Returns a line for each number of redundant constraints left, under a heading.
-pub(in crate::view) fn symmetric_text(found: &SymmetricBest) -> String {
+pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
     let SymmetricBest { best, odd } = found;
     let mut out = String::from("\n  the cheapest symmetric redesign for each σ left:\n");
     // Writing to a string cannot fail.
@@ -147,7 +144,7 @@ fn symmetry(search: &Search) -> &'static str {
 }
 
 /// Returns the cheapest symmetric redesigns as data.
-pub(in crate::view) fn symmetric_data(found: &SymmetricBest) -> Value {
+pub(crate) fn symmetric_data(found: &SymmetricBest) -> Value {
     let one = |one: &SymmetricRedesign| {
         let SymmetricRedesign {
             left,

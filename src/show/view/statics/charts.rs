@@ -8,9 +8,8 @@ use crate::statics::contour_group::stability::{DistanceErrors, Failure};
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::{LinkInertia, LoadSource};
 use crate::statics::planar::PairId;
+use crate::view::prelude::*;
 use crate::view::statics::{StaticsData, magnitudes};
-use crate::view::terminal::layout::prefix;
-use itertools::Itertools;
 
 /// Named figures of a group's reactions.
 type Figures<'a> = &'a dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&'static str, f64)>;

@@ -1,15 +1,14 @@
 //! Force plans of the four-link groups, drawn where forces from outside load them most.
 
 use crate::chart::{Panel, PanelPair, PlanArrow, Polygons};
-use crate::format::figure;
 use crate::statics::contour_group::force_plan::{
     Plan, PlanForce, PlanKind, force_plans, group_loads,
 };
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::LoadSource;
+use crate::view::prelude::*;
 use crate::view::statics::StaticsData;
-use crate::view::terminal::layout::prefix;
 
 /// The drawing of each group, with the name of its file.
 #[must_use]

@@ -1,6 +1,5 @@
 //! Statics for people: the groups, the reactions over the cycle, the greatest of each joint.
 
-use crate::format::{figure, plural};
 use crate::statics::assur_class::roman;
 use crate::statics::contour_group::ContourGroup;
 use crate::statics::contour_group::pose::GroupReactions;
@@ -9,10 +8,9 @@ use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::{LinkInertia, Worth};
 use crate::statics::planar::PairId;
 use crate::view::claims;
+use crate::view::prelude::*;
 use crate::view::reactions::text::{NO_STRAIN, no_loads};
 use crate::view::statics::{Decomposed, GroupData, StaticsData, Structures, magnitudes};
-use crate::view::terminal::layout::{fit, prefix, table};
-use itertools::Itertools;
 use std::fmt::Write;
 
 /// The groups as a table.

@@ -4,15 +4,17 @@ use crate::grip;
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::loads::Stroke;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::stress::exact_self_stresses;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::solve::SolvedReactions;
 use crate::view::grip::clamped::{Clamped, pose};
+use crate::view::prelude::*;
+use crate::view::reactions::Reactions;
 use crate::view::reactions::stroke::ReactionsOverStroke;
-use crate::view::reactions::{Reactions, text::reactions};
-use crate::view::statics::{StaticsData, csv::csv, text::statics};
-use serde::Serialize;
+use crate::view::reactions::text::reactions;
+use crate::view::statics::StaticsData;
+use crate::view::statics::csv::csv;
+use crate::view::statics::text::statics;
 
 /// Reactions in a plane, in one pose, or over a stroke.
 #[derive(Debug, Serialize)]

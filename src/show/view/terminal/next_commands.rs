@@ -1,11 +1,9 @@
 //! What to do next: commands, with what each is for.
 
-use crate::model::mechanism::Mechanism;
 use crate::score::request::{JointOptions, List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::search::question::kept::Drives;
-use crate::view::terminal::layout::fit;
-use itertools::Itertools;
+use crate::view::prelude::*;
 
 /// A command and what it gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
