@@ -77,7 +77,7 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Told> {
 }
 
 fn told(told: &ToldStatics<'_>) -> PyResult<Told> {
-    Ok((json(told)?, told.text(None), Some(told.csv()), None))
+    Ok((json(&told.json())?, told.text(None), Some(told.csv()), None))
 }
 
 fn not_held(told: &NotHeld<'_>) -> PyResult<Told> {

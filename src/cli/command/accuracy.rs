@@ -56,27 +56,18 @@ pub(crate) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
         output::files(folder, pictures::files(both, &studies, &machine, &made))?;
         bar.clear();
         let text = summary(both, &studies, &machine, output::width(None));
-        return output::to(None, |out| {
-            writeln!(
-                out,
-                "{text}\nWritten to {}: open it in a browser.",
-                folder.join("index.html").display()
-            )?;
-            Ok(Done::Found)
-        });
+        let index = folder.join("index.html");
+        let written = format!("Written to {}: open it in a browser.", index.display());
+        return output::put(None, format!("{text}\n{written}\n"));
     }
     bar.clear();
-    output::to(None, |out| {
-        let text = summary(both, &[], &machine, output::width(None));
-        let charts = NextCommand {
-            command: "ozols accuracy -o accuracy".to_owned(),
-            gives: "the same as charts, and where each method's numbers fail".to_owned(),
-        };
-        write!(
-            out,
-            "{text}{}",
-            next_commands::text(&[charts], output::width(None))
-        )?;
-        Ok(Done::Found)
-    })
+    let text = summary(both, &[], &machine, output::width(None));
+    let charts = NextCommand {
+        command: "ozols accuracy -o accuracy".to_owned(),
+        gives: "the same as charts, and where each method's numbers fail".to_owned(),
+    };
+    output::put(
+        None,
+        text + &next_commands::text(&[charts], output::width(None)),
+    )
 }

@@ -49,9 +49,8 @@ pub(crate) struct Analyze {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: TextOrJson,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
     /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
     #[arg(long, value_name = "FILE")]
     pub(crate) certificate: Option<PathBuf>,
@@ -99,10 +98,7 @@ pub(crate) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     }
     let stroke = stroke.as_ref().map(StrokeData::of);
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
-        output::to(Some(path), |out| {
-            write!(out, "{}", s.chart().svg())?;
-            Ok(Done::Found)
-        })?;
+        output::put(Some(path), s.chart().svg())?;
     }
     let advice = suggestions::advise(&mechanism, &states, &found)?;
     let mut analysis = Analysis {
@@ -129,11 +125,7 @@ fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateI
         (_, Some(s)) => vec![s],
         ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
         ("all", None) => mechanism.state_ids().collect(),
-        (other, None) => bail!(
-            "{} has no state {other}; it has: {}",
-            mechanism.name,
-            mechanism.states.join(", ")
-        ),
+        (other, None) => vec![load::state(mechanism, other)?],
     })
 }
 
@@ -181,29 +173,21 @@ fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
 
 /// Writes what was found in the format asked for; text says what to do next.
 fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::Result<Done> {
-    let width = output::width(a.output.as_deref());
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &analysis.json())?,
-            TextOrJson::Text => {
-                let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
-                let text = toned(
-                    analysis.text(width, a.verbose),
-                    a.output.as_deref(),
-                    verdicts,
-                );
-                write!(out, "{text}")?;
-                if let Some(s) = &analysis.stroke {
-                    write!(out, "\n{}", fit(&s.text(width), width))?;
-                }
-                let next = a.file.with_loops(next_commands::text(next, width));
-                write!(out, "{next}")?;
-            }
+    let width = a.to.width();
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&analysis.json())?,
+        TextOrJson::Text => {
+            let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
+            let text = toned(analysis.text(width, a.verbose), a.to.path(), verdicts);
+            let stroke = analysis.stroke.as_ref();
+            let stroke = stroke.map(|s| format!("\n{}", fit(&s.text(width), width)));
+            let next = a.file.with_loops(next_commands::text(next, width));
+            text + &stroke.unwrap_or_default() + &next
         }
-        // A stroke that could not be finished is no success.
-        let stopped = analysis.stroke.as_ref().is_some_and(StrokeData::stops);
-        Ok(if stopped { Done::Nothing } else { Done::Found })
-    })
+    })?;
+    // A stroke that could not be finished is no success.
+    let stopped = analysis.stroke.as_ref().is_some_and(StrokeData::stops);
+    Ok(Done::found(!stopped))
 }
 
 /// Returns the tone of a verdict: good news or bad.
@@ -240,11 +224,8 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
         method,
         answers,
     };
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &found.json())?,
-            TextOrJson::Text => write!(out, "{}", found.text())?,
-        }
-        Ok(Done::Found)
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&found.json())?,
+        TextOrJson::Text => found.text(),
     })
 }

@@ -11,7 +11,7 @@ use crate::cli::prelude::*;
 use crate::cli::terminal::machine;
 use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
-use crate::view::accuracy::{BenchData, bench_text};
+use crate::view::accuracy::{bench_json, bench_text};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BenchFormat {
@@ -136,22 +136,15 @@ pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
         );
         output::files(folder, pictures::files(&trials, &machine, &made))?;
     }
-    output::to(None, |out| {
-        match a.format {
-            BenchFormat::Text => {
-                write!(
-                    out,
-                    "{}",
-                    bench_text(&trials, &machine, output::width(None))
-                )?;
-            }
-            BenchFormat::Json => output::json(out, &BenchData::new(&trials, &machine))?,
-            BenchFormat::Csv => write!(out, "{}", record::csv(&trials))?,
-        }
-        if let Some(folder) = &a.output {
-            let index = folder.join("index.html");
-            writeln!(out, "Written to {}: open it in a browser.", index.display())?;
-        }
-        Ok(if well { Done::Found } else { Done::Partly })
-    })
+    let mut text = match a.format {
+        BenchFormat::Text => bench_text(&trials, &machine, output::width(None)),
+        BenchFormat::Json => output::json(&bench_json(&trials, &machine))?,
+        BenchFormat::Csv => record::csv(&trials),
+    };
+    if let Some(folder) = &a.output {
+        let index = folder.join("index.html");
+        text += &format!("Written to {}: open it in a browser.\n", index.display());
+    }
+    output::put(None, text)?;
+    Ok(if well { Done::Found } else { Done::Partly })
 }

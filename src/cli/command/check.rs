@@ -2,13 +2,14 @@
 
 use crate::builtin;
 use crate::cli::prelude::*;
-use crate::file::lint::{Checked, across, check};
+use crate::file::lint::{across, check};
 use crate::file::locate::DocumentStep;
 use crate::file::read::workload::tables_alone;
 use crate::file::warning::{WarningKind, Warnings};
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::mechanism::Expected;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::view::analysis::idle::drive_fault;
 use crate::view::analysis::mechanism::describe;
 use crate::view::search::costs;
 
@@ -25,10 +26,8 @@ pub(crate) struct Show {
 pub(crate) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(a)?;
     if let Some((name, tables)) = tables_alone(&name, &bytes)? {
-        return output::to(None, |out| {
-            writeln!(out, "{name}: workload {}: valid", tables.join(", "))?;
-            Ok(Done::Found)
-        });
+        let tables = tables.join(", ");
+        return output::put(None, format!("{name}: workload {tables}: valid\n"));
     }
     let mut checked = check(&name, &bytes)?;
     for state in checked.mechanism.state_ids() {
@@ -39,34 +38,22 @@ pub(crate) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
         }
     }
     stale(&checked.mechanism, &mut checked.warnings);
-    let Checked {
-        mechanism,
-        tables,
-        warnings,
-    } = &checked;
+    drives(&checked.mechanism, &mut checked.warnings);
+    let (m, warnings) = (&checked.mechanism, &checked.warnings);
+    let (verdict, tone) = match warnings.warnings.len() {
+        0 => ("valid".to_owned(), Tone::Good),
+        n => (format!("valid, {}", plural(n, "warning")), Tone::Doubtful),
+    };
+    let head = fit(&format!("{}: {verdict}\n", m.name), output::width(None));
+    output::put(None, toned(head, None, [(verdict, tone)]))?;
     if !warnings.warnings.is_empty() && !args.quiet {
         output::coloured_note(&warnings.render(true));
     }
-    output::to(None, |out| {
-        let verdict = match warnings.warnings.len() {
-            0 => "valid".to_owned(),
-            n => format!("valid, {}", plural(n, "warning")),
-        };
-        let mut text = format!("{}: {verdict}\n", mechanism.name);
-        for line in describe(mechanism, across(mechanism)) {
-            text += &format!("  {line}\n");
-        }
-        for table in tables {
-            text += &format!("  workload {table}: for `ozols {table}`\n");
-        }
-        let tone = match warnings.warnings.len() {
-            0 => Tone::Good,
-            _ => Tone::Doubtful,
-        };
-        let text = fit(&text, output::width(None));
-        write!(out, "{}", toned(text, None, [(verdict, tone)]))?;
-        Ok(Done::Found)
-    })
+    let lines = describe(m, across(m)).into_iter();
+    let tables = checked.tables.iter();
+    let tables = tables.map(|table| format!("workload {table}: for `ozols {table}`"));
+    let lines = lines.chain(tables).map(|line| format!("  {line}\n"));
+    output::put(None, fit(&lines.collect::<String>(), output::width(None)))
 }
 
 /// Prints what to do next with a file.
@@ -77,10 +64,28 @@ pub(crate) fn tell_next(file: &str) -> anyhow::Result<Done> {
         ("studio", "Draw and change it in the browser"),
     ];
     let next = next.map(|(command, gives)| NextCommand::new(command, file, "", gives));
-    output::to(None, |out| {
-        write!(out, "{}", next_commands::text(&next, output::width(None)))?;
-        Ok(Done::Found)
-    })
+    output::put(None, next_commands::text(&next, output::width(None)))
+}
+
+/// Returns the path of a value in an entry of a list.
+fn entry(list: &str, i: usize, key: &str) -> [DocumentStep; 3] {
+    let [list, key] = [list, key].map(|k| DocumentStep::Key(k.to_owned()));
+    [list, DocumentStep::Index(i), key]
+}
+
+/// Warns of faults of the drives, in the words of `ozols analyze`.
+fn drives(m: &Mechanism, warnings: &mut Warnings) {
+    let Some(first) = m.joints.iter().position(|j| j.drive) else {
+        return;
+    };
+    // Why there is no analysis is for `ozols analyze` to say.
+    let found = analyse(m, &[StateId::FREE], Method::Auto).unwrap_or_default();
+    for fault in found.iter().flat_map(|s| &s.drives) {
+        let (_, joint, what) = drive_fault(m, fault);
+        let joint = joint.and_then(|id| m.joints.iter().position(|j| j.id == id));
+        let path = entry("joint", joint.unwrap_or(first), "drive");
+        warnings.add(&path, WarningKind::Drives { what });
+    }
 }
 
 /// A figure that the file states, and what the analysis finds.
@@ -128,21 +133,14 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
                 continue;
             };
             if stated != found {
-                let path = [
-                    DocumentStep::Key("expected".to_owned()),
-                    DocumentStep::Index(i),
-                    DocumentStep::Key(key.to_owned()),
-                ];
                 let state = e.state.clone();
-                warnings.add(
-                    &path,
-                    WarningKind::Stale {
-                        key,
-                        state,
-                        stated,
-                        found,
-                    },
-                );
+                let stale = WarningKind::Stale {
+                    key,
+                    state,
+                    stated,
+                    found,
+                };
+                warnings.add(&entry("expected", i, key), stale);
             }
         }
     }
@@ -153,15 +151,9 @@ pub(crate) fn show(a: &Show) -> anyhow::Result<Done> {
     let Some(text) = costs.as_deref().or_else(|| builtin::text(&a.name)) else {
         bail!(load::no_built_in(&a.name))
     };
-    output::to(None, |out| {
-        write!(out, "{text}")?;
-        Ok(Done::Found)
-    })
+    output::put(None, text)
 }
 
 pub(crate) fn schema() -> anyhow::Result<Done> {
-    output::to(None, |out| {
-        writeln!(out, "{:#}", crate::file::schema::json_schema())?;
-        Ok(Done::Found)
-    })
+    output::put(None, format!("{:#}\n", crate::file::schema::json_schema()))
 }

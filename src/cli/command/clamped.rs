@@ -60,26 +60,15 @@ pub(crate) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
         return not_held(g, a);
     };
     let shown = ToldStatics::round_a_part(g, row, &found);
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-            StaticsFormat::Text => {
-                write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
-            }
-        }
-        Ok(Done::Found)
-    })
+    a.put_reactions(&shown, &[])
 }
 
 /// Says why there are no forces: exit code 1.
 fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let shown = NotHeld::new(g);
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv | StaticsFormat::Text => write!(out, "{}", shown.text())?,
-        }
-        Ok(Done::Nothing)
-    })
+    a.put(match a.format {
+        StaticsFormat::Json => output::json(&shown)?,
+        StaticsFormat::Csv | StaticsFormat::Text => shown.text(),
+    })?;
+    Ok(Done::Nothing)
 }

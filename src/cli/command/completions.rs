@@ -14,8 +14,5 @@ pub(crate) fn run(a: &Completions, mut program: Command) -> anyhow::Result<Done>
     // The generator panics where it cannot write, so it writes to memory.
     let mut script = Vec::new();
     clap_complete::generate(a.shell, &mut program, "ozols", &mut script);
-    output::to(None, |out| {
-        out.write_all(&script)?;
-        Ok(Done::Found)
-    })
+    output::put(None, script)
 }

@@ -64,9 +64,8 @@ pub(crate) struct Draw {
     /// Width of a PNG in pixels.
     #[arg(long, value_name = "PIXELS", conflicts_with = "scale")]
     width: Option<u32>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
     #[command(flatten, next_help_heading = "The list that --variant refers to")]
     which: Which,
 }
@@ -123,14 +122,7 @@ pub(crate) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         "--view and --up need the kinematic scheme, which has coordinates; add --kind kinematic"
     );
     let mut mechanism = load::mechanism(&a.file)?;
-    let Some(state) = mechanism.state(&a.state) else {
-        bail!(
-            "{} has no state {}; it has: {}",
-            mechanism.name,
-            a.state,
-            mechanism.states.join(", ")
-        );
-    };
+    let state = load::state(&mechanism, &a.state)?;
     let mut marks = None;
     let searched = state != StateId::FREE;
     let request = a.which.request(searched.then_some(a.state.as_str()))?;
@@ -154,10 +146,7 @@ pub(crate) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         Some(size) => picture::png(&drawing, size)?,
         None => drawing.svg.into_bytes(),
     };
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(&bytes)?;
-        Ok(Done::Found)
-    })
+    a.to.put(bytes)
 }
 
 /// Returns the drawing that is asked for.
@@ -233,8 +222,8 @@ fn moving(
 
 /// Returns the size of the PNG, if one is asked for. Reports mistakes before any work is done.
 fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
-    output::not_to_terminal(a.output.as_deref(), "a drawing")?;
-    if !a.png && !picture::named(a.output.as_deref()) {
+    output::not_to_terminal(a.to.path(), "a drawing")?;
+    if !a.png && !picture::named(a.to.path()) {
         ensure!(
             a.scale.is_none() && a.width.is_none(),
             "--scale and --width are for PNG; add --png, or -o with a name that ends in .png (SVG scales to any size)"

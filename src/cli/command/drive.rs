@@ -30,9 +30,8 @@ pub(crate) struct Drive {
     /// first disc for `ozols grip --motion`.
     #[arg(long, value_name = "DIR")]
     pub(crate) svg: Option<PathBuf>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 pub(crate) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
@@ -70,23 +69,14 @@ pub(crate) fn run(args: &Global, a: &Drive) -> anyhow::Result<Done> {
         let more: Vec<charts::ChartDrawing> = cam.into_iter().chain(motion).collect();
         charts::write(folder, None, &charts(&shown), &more)?;
     }
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &shown.json())?,
-            TextOrJson::Text => {
-                let width = output::width(a.output.as_deref());
-                write!(out, "{}", text::drive(&shown, width))?;
-                if a.svg.is_none() && shown.design.is_some() {
-                    let gives = "charts of the programme, angle and energy over time, and the cam's profile if its radii are given";
-                    let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);
-                    write!(out, "{}", next_commands::text(&[charts], width))?;
-                }
-            }
-        }
-        Ok(if shown.complete() {
-            Done::Found
-        } else {
-            Done::Nothing
-        })
-    })
+    let gives = "charts of the programme, angle and energy over time, and the cam's profile if its radii are given";
+    let charts = NextCommand::new("drive", &a.file.file, "--svg charts", gives);
+    let wanted = a.svg.is_none() && shown.design.is_some();
+    let next = if wanted { &[charts][..] } else { &[] };
+    let width = a.to.width();
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&shown.json())?,
+        TextOrJson::Text => text::drive(&shown, width) + &next_commands::text(next, width),
+    })?;
+    Ok(Done::found(shown.complete()))
 }

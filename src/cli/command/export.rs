@@ -34,9 +34,8 @@ pub(crate) struct Export {
     state: Option<String>,
     #[command(flatten)]
     which: Which,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    out: ToFile,
 }
 
 fn written() -> PossibleValuesParser {
@@ -70,10 +69,7 @@ pub(crate) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
         m = request.meant(&m, &mut note)?;
     }
     let text = text(&m, &a.to, left_behind)?;
-    output::to(a.output.as_deref(), |out| {
-        write!(out, "{text}")?;
-        Ok(Done::Found)
-    })
+    a.out.put(text)
 }
 
 /// Returns the robot description or CAD assembly that FILE names. `None` if FILE is neither.
@@ -96,15 +92,12 @@ fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
 fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     let width = output::error_width();
     output::note(&fit(&imported.report.text(&a.file), width));
-    output::to(a.output.as_deref(), |out| {
-        if a.to == TOML {
-            write!(out, "{}", imported.toml()?)?;
-        } else {
-            writeln!(out, "{:#}", imported.file.json())?;
-        }
-        Ok(Done::Found)
+    a.out.put(if a.to == TOML {
+        imported.toml()?
+    } else {
+        format!("{:#}\n", imported.file.json())
     })?;
-    if let Some(path) = &a.output {
+    if let Some(path) = a.out.path() {
         let file = path.display().to_string();
         let steps = [
             ("analyze", "its mobility and redundant constraints"),
@@ -136,10 +129,7 @@ fn own(a: &Export) -> anyhow::Result<Done> {
     };
     let told: Vec<(Release, String)> = releases.into_iter().map(|r| (r, words(m, &r))).collect();
     let written = robots::fix(&imported, &told)?;
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(&written)?;
-        Ok(Done::Found)
-    })
+    a.out.put(written)
 }
 
 /// Converts a mechanism to a format and reports what is lost, after the notes of the import.

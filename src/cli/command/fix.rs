@@ -55,10 +55,7 @@ pub(crate) fn run(a: &Fix) -> anyhow::Result<Done> {
     let found = lint::look(&again.mechanism, Some(&again.origin))?;
     let (lasting, after) = (found.lasting, found.analysis);
     as_planned(a, &plan, &after, lasting)?;
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(&text)?;
-        Ok(Done::Found)
-    })?;
+    output::put(a.output.as_deref(), text)?;
     let told = match retyped {
         Some(all) => all.iter().map(TypeChange::words).collect(),
         None => releases

@@ -12,10 +12,10 @@ use crate::grip::grip;
 use crate::grip::motion::along;
 use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::statics::reactions::contact::object_at;
+use crate::view::grip::GripReport;
 use crate::view::grip::charts::charts;
 use crate::view::grip::closure::ClosureData;
 use crate::view::grip::motion::GripMotion;
-use crate::view::grip::{GripReport, text};
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct Grip {
@@ -50,9 +50,8 @@ pub(crate) struct Grip {
     /// Also write charts to this folder, each as SVG and CSV.
     #[arg(long, value_name = "DIR")]
     svg: Option<PathBuf>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 fn vector(text: &str) -> Result<[f64; 3], String> {
@@ -92,25 +91,14 @@ pub(crate) fn run(args: &Global, a: &Grip) -> anyhow::Result<Done> {
     if let Some(folder) = &a.svg {
         charts::write(folder, None, &charts(&shown), &[])?;
     }
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &shown.json())?,
-            TextOrJson::Text => {
-                let width = output::width(a.output.as_deref());
-                write!(out, "{}", text::grip(&shown, width))?;
-                if a.svg.is_none() {
-                    let gives = "charts of the arms and the drive moment";
-                    let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
-                    write!(out, "{}", next_commands::text(&[charts], width))?;
-                }
-            }
-        }
-        Ok(if shown.holds() {
-            Done::Found
-        } else {
-            Done::Nothing
-        })
-    })
+    let gives = "charts of the arms and the drive moment";
+    let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
+    let next = if a.svg.is_none() { &[charts][..] } else { &[] };
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&shown.json())?,
+        TextOrJson::Text => shown.text(a.to.width()) + &next_commands::text(next, a.to.width()),
+    })?;
+    Ok(Done::found(shown.holds()))
 }
 
 /// Adds the accelerations of the command line to the load of the file.
@@ -158,13 +146,7 @@ fn state(m: &Mechanism, asked: Option<&str>) -> anyhow::Result<StateId> {
         let clamped = |s: &StateId| m.joints_in(*s).any(|j| object_at(m, j).is_some());
         return Ok(m.state_ids().find(clamped).unwrap_or(StateId::FREE));
     };
-    m.state(name).with_context(|| {
-        format!(
-            "{} has no state {name}; it has: {}",
-            m.name,
-            m.states.join(", ")
-        )
-    })
+    load::state(m, name)
 }
 
 /// Says how firmly the contacts of any clamped mechanism hold the part.
@@ -196,17 +178,9 @@ fn run_closure(args: &Global, a: &Grip) -> anyhow::Result<Done> {
         form,
         samples,
     };
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &shown.json())?,
-            TextOrJson::Text => {
-                write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
-            }
-        }
-        Ok(match shown.force.closed {
-            Some(true) => Done::Found,
-            Some(false) => Done::Nothing,
-            None => Done::Partly,
-        })
-    })
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&shown.json())?,
+        TextOrJson::Text => shown.text(a.to.width()),
+    })?;
+    Ok(shown.force.closed.map_or(Done::Partly, Done::found))
 }

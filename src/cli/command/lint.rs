@@ -23,9 +23,8 @@ pub(crate) struct Lint {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextOrJson,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 pub(crate) fn run(a: &Lint) -> anyhow::Result<Done> {
@@ -40,52 +39,46 @@ pub(crate) fn run(a: &Lint) -> anyhow::Result<Done> {
         .iter()
         .filter_map(|f| f.as_ref().err().cloned())
         .collect();
-    let width = output::width(a.output.as_deref());
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Text => {
-                for file in &all {
-                    let (text, verdict) = match file {
-                        Err(passed) => {
-                            let good = passed
-                                .rigid
-                                .then(|| ("nothing is redundant".to_owned(), Tone::Good));
-                            (passed.text(), good)
-                        }
-                        Ok(lint) => {
-                            let verdict = if lint.is_clean() {
-                                let tone = match lint.left_out {
-                                    0 => Tone::Good,
-                                    _ => Tone::Doubtful,
-                                };
-                                ("nothing is redundant".to_owned(), tone)
-                            } else {
-                                (lint.sigma(), Tone::Bad)
-                            };
-                            (lint.text(), Some(verdict))
-                        }
-                    };
-                    let text = fit(&text, width);
-                    write!(out, "{}", toned(text, a.output.as_deref(), verdict))?;
-                }
-                let mended = found
-                    .iter()
-                    .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
-                let gives = "apply the cheapest fix; all else stays unchanged";
-                let flags = a.reading.flags();
-                let steps: Vec<NextCommand> = mended
-                    .map(|l| NextCommand::mend(&l.file, &flags, gives))
-                    .collect();
-                write!(out, "{}", next_commands::text(&steps, width))?;
-            }
-            TextOrJson::Json => output::json(out, &lint::json(&found, &others))?,
-        }
-        Ok(match found.iter().all(|l| l.is_in_order()) {
-            _ if failed => Done::Partly,
-            true => Done::Found,
-            false => Done::Nothing,
-        })
+    let text = match a.format {
+        TextOrJson::Text => text(a, &all, &found),
+        TextOrJson::Json => output::json(&lint::json(&found, &others))?,
+    };
+    a.to.put(text)?;
+    Ok(match found.iter().all(|l| l.is_in_order()) {
+        _ if failed => Done::Partly,
+        in_order => Done::found(in_order),
     })
+}
+
+/// Returns a paragraph on each file, and how to fix those that can be fixed.
+fn text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String {
+    let width = a.to.width();
+    let paragraph = |file: &Result<Found, PassedOver>| {
+        let (text, verdict) = match file {
+            Err(passed) => (passed.text(), passed.rigid.then_some(Tone::Good)),
+            Ok(lint) if !lint.is_clean() => (lint.text(), Some(Tone::Bad)),
+            Ok(lint) if lint.left_out > 0 => (lint.text(), Some(Tone::Doubtful)),
+            Ok(lint) => (lint.text(), Some(Tone::Good)),
+        };
+        let words = match file {
+            Ok(lint) if !lint.is_clean() => lint.sigma(),
+            _ => lint::NONE.to_owned(),
+        };
+        toned(
+            fit(&text, width),
+            a.to.path(),
+            verdict.map(|tone| (words, tone)),
+        )
+    };
+    let fixed = found
+        .iter()
+        .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
+    let gives = "apply the cheapest fix; all else stays unchanged";
+    let flags = a.reading.flags();
+    let steps = fixed
+        .map(|l| NextCommand::mend(&l.file, &flags, gives))
+        .collect_vec();
+    all.iter().map(paragraph).collect::<String>() + &next_commands::text(&steps, width)
 }
 
 /// Examines one file.

@@ -57,14 +57,8 @@ pub(crate) fn run(a: &List) -> anyhow::Result<Done> {
     }
     match a.format {
         ListFormat::Text => text(a, rows),
-        ListFormat::Json => output::to(None, |out| {
-            output::json(out, &rows)?;
-            Ok(Done::Found)
-        }),
-        ListFormat::Csv => output::to(None, |out| {
-            write!(out, "{}", csv::records(rows))?;
-            Ok(Done::Found)
-        }),
+        ListFormat::Json => output::put(None, output::json(&rows)?),
+        ListFormat::Csv => output::put(None, csv::records(rows)),
     }
 }
 
@@ -77,7 +71,7 @@ pub(crate) fn all() -> anyhow::Result<Done> {
 }
 
 fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
-    let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
+    let header = "mechanism | state | n | p | k | f | W | σ";
     let (mut cells, mut notes) = (Vec::new(), Vec::new());
     let (mut family, mut name) = (String::new(), String::new());
     for r in rows {
@@ -99,7 +93,7 @@ fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
         cells.push(row);
         notes.push((heading, if first { r.description } else { String::new() }));
     }
-    let table = table(&header, cells, None);
+    let table = table(header, cells, None);
     let width = output::width(None).map(usize::from);
     output::to(None, |out| {
         let lines: Vec<&str> = table.lines().collect();

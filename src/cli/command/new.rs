@@ -55,20 +55,13 @@ fn write(args: &Global, file: &Path, from: &str, force: bool) -> anyhow::Result<
     }
     let text = template::commented(text, from, &name)
         .with_context(|| format!("built-in mechanism {from}"))?;
-    output::to(Some(file), |out| {
-        write!(out, "{text}")?;
-        Ok(Done::Found)
-    })?;
+    output::put(Some(file), text)?;
     if args.quiet {
         return Ok(Done::Found);
     }
-    output::to(None, |out| {
-        writeln!(out, "{shown}: the built-in {from} with comments")?;
-        writeln!(out, "  ozols check {shown}")?;
-        writeln!(out, "  ozols analyze {shown}")?;
-        writeln!(out, "  ozols search {shown}")?;
-        Ok(Done::Found)
-    })
+    let next = ["check", "analyze", "search"].map(|c| format!("  ozols {c} {shown}\n"));
+    let head = format!("{shown}: the built-in {from} with comments\n");
+    output::put(None, head + &next.concat())
 }
 
 /// The questions, in the order of the answers that each template has.

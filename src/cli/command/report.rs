@@ -23,16 +23,15 @@ pub(crate) struct Report {
     top: usize,
     #[command(flatten)]
     checked: Checked,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 /// Maximum number of variants on a page.
 const MOST: usize = 10_000;
 
 pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
-    output::not_to_terminal(a.output.as_deref(), "a page")?;
+    output::not_to_terminal(a.to.path(), "a page")?;
     let request = asked(args, a)?;
     let written = load::mechanism(&a.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
@@ -57,10 +56,7 @@ pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
                 ..commands(&mechanism, a, &request)
             },
         })?;
-        output::to(a.output.as_deref(), |out| {
-            out.write_all(page.as_bytes())?;
-            Ok(Done::Found)
-        })
+        a.to.put(page)
     };
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
     let (conditions, measured) = match conditions {

@@ -67,9 +67,8 @@ pub(crate) struct Search {
     /// End a CSV that is not the whole list with a comment line, `# ...`; without this option the note goes to standard error.
     #[arg(long)]
     comment: bool,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 /// Length of a list that people read.
@@ -118,25 +117,20 @@ pub(crate) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
         SearchFormat::Text | SearchFormat::Json => outcome.remarks(&interrupt::pending)?,
         SearchFormat::Jsonl | SearchFormat::Csv => Remarks::default(),
     };
-    let done = output::to(a.output.as_deref(), |out| {
+    let done = output::to(a.to.path(), |out| {
         let variants = outcome.variants_unless(&interrupt::pending);
         match a.format {
             SearchFormat::Text => {
-                let width = output::width(a.output.as_deref());
+                let width = a.to.width();
                 let file = &a.file.file;
                 if request.list == List::All {
                     text::write(out, &outcome, variants, remarks, file, width, a.verbose)?;
                 } else {
-                    let mut text = Vec::new();
-                    text::write(
-                        &mut text, &outcome, variants, remarks, file, width, a.verbose,
-                    )?;
+                    let (mut text, long) = (Vec::new(), a.verbose);
+                    text::write(&mut text, &outcome, variants, remarks, file, width, long)?;
                     let text = a.file.with_loops(String::from_utf8(text)?);
-                    write!(
-                        out,
-                        "{}",
-                        toned(text, a.output.as_deref(), [verdict(&outcome)])
-                    )?;
+                    let text = toned(text, a.to.path(), [verdict(&outcome)]);
+                    out.write_all(text.as_bytes())?;
                 }
             }
             SearchFormat::Json => {
@@ -154,7 +148,7 @@ pub(crate) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
             }
         }
         let none = outcome.listed_counts().total.is_zero() && !outcome.admissible_may_be_more();
-        Ok(if none { Done::Nothing } else { Done::Found })
+        Ok(Done::found(!none))
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {

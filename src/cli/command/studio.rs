@@ -65,10 +65,7 @@ pub(crate) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
     })?;
     let address = studio.address();
     spinner::rest();
-    output::to(None, |out| {
-        writeln!(out, "{address}")?;
-        Ok(Done::Found)
-    })?;
+    output::put(None, format!("{address}\n"))?;
     if !a.no_open && !shown(&address) {
         output::note("no browser could be started; open the address above in one\n");
     }

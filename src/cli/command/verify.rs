@@ -63,11 +63,7 @@ pub(crate) fn write(
             }
         }
     }
-    output::to(Some(path), |out| {
-        serde_json::to_writer(&mut *out, &file)?;
-        writeln!(out)?;
-        Ok(Done::Found)
-    })?;
+    output::put(Some(path), serde_json::to_string(&file)? + "\n")?;
     Ok(())
 }
 
@@ -81,11 +77,7 @@ pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
         disk::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
     let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
     let mut lines = Vec::new();
-    let mut done = if file.certificates.is_empty() {
-        Done::Nothing
-    } else {
-        Done::Found
-    };
+    let mut done = Done::found(!file.certificates.is_empty());
     for certificate in &file.certificates {
         let Some(state) = m.state(&certificate.state) else {
             bail!(
@@ -117,10 +109,6 @@ pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
             m.name
         ));
     }
-    output::to(None, |out| {
-        for line in lines {
-            writeln!(out, "{line}")?;
-        }
-        Ok(done)
-    })
+    output::put(None, lines.join("\n") + "\n")?;
+    Ok(done)
 }

@@ -10,9 +10,9 @@ use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::format::did_you_mean;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::Coupling;
-use crate::model::mechanism::{Mechanism, Mode};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::robots;
-use anyhow::{bail, ensure};
+use anyhow::{Context, bail, ensure};
 use itertools::Itertools;
 use std::io::Read;
 
@@ -123,6 +123,18 @@ pub(crate) fn tell_doubts(file: &Named, imported: &robots::Imported) {
     if !doubts.is_empty() {
         crate::cli::terminal::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));
     }
+}
+
+/// Returns the state that an option names.
+pub(crate) fn state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
+    let known = || {
+        format!(
+            "{} has no state {name}; it has: {}",
+            m.name,
+            m.states.join(", ")
+        )
+    };
+    m.state(name).with_context(known)
 }
 
 /// Models a mechanism in the plane of x and y. Couplings of freedoms out of the plane are omitted and reported.

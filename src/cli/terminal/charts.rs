@@ -1,7 +1,7 @@
 //! Charts and drawings into a folder, each as SVG and CSV.
 
 use crate::chart::{Chart, page};
-use crate::cli::terminal::{Done, output};
+use crate::cli::terminal::output;
 
 /// A drawing next to the charts.
 pub(crate) struct ChartDrawing {
@@ -26,12 +26,7 @@ pub(crate) fn write(
 ) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let write = |name: &str, text: &str| {
-        output::to(Some(&folder.join(name)), |out| {
-            write!(out, "{text}")?;
-            Ok(Done::Found)
-        })
-    };
+    let write = |name: &str, text: &str| output::put(Some(&folder.join(name)), text);
     let mut parts = Vec::new();
     for (name, chart) in charts {
         let svg = chart.svg();

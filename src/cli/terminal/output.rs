@@ -75,16 +75,21 @@ pub(crate) fn to(
     Ok(done)
 }
 
+/// Writes a text or other bytes to standard output or a file.
+pub(crate) fn put(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
+    to(path, |out| {
+        out.write_all(all.as_ref())?;
+        Ok(Done::Found)
+    })
+}
+
 /// Writes files, by name and content, to a folder.
 pub(crate) fn files(
     folder: &Path,
     files: impl IntoIterator<Item = (String, String)>,
 ) -> anyhow::Result<()> {
     for (name, text) in files {
-        to(Some(&folder.join(&name)), |out| {
-            out.write_all(text.as_bytes())?;
-            Ok(Done::Found)
-        })?;
+        put(Some(&folder.join(&name)), text)?;
     }
     Ok(())
 }
@@ -98,9 +103,9 @@ pub(crate) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow::Result
     Ok(())
 }
 
-/// Writes a value as JSON for people to read and programs to parse.
-pub(crate) fn json(out: &mut dyn Write, value: &impl serde::Serialize) -> anyhow::Result<()> {
-    Ok(writeln!(out, "{}", view::pretty(value)?)?)
+/// Returns a value as JSON for people to read and programs to parse.
+pub(crate) fn json(value: &impl serde::Serialize) -> anyhow::Result<String> {
+    Ok(view::pretty(value)? + "\n")
 }
 
 /// Minimum width of a text, in columns.

@@ -147,6 +147,8 @@ pub enum WarningKind {
         freedoms: String,
         taken: &'static str,
     },
+    #[error("{what}")]
+    Drives { what: String },
     #[error("no joint is a drive, so {what} has nothing to move; mark one with drive = true")]
     NoDrive { what: &'static str },
     #[error(

@@ -1,6 +1,6 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-pub(crate) mod idle;
+pub mod idle;
 pub mod link_motions;
 pub mod mechanism;
 pub mod mobility;
@@ -123,7 +123,7 @@ impl State<'_> {
         let (m, s) = (self.mechanism, self.found);
         let most = s.at_most();
         let fault = |d| {
-            let (kind, joint, text) = idle::fault(m, d);
+            let (kind, joint, text) = idle::drive_fault(m, d);
             json!({ "kind": kind, "joint": joint, "text": text })
         };
         let left_out = |&(j, freedoms): &(JointId, usize)| json!({ "joint": self.joint(j), "freedoms": freedoms });

@@ -48,16 +48,12 @@ pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
         return String::new();
     }
     let rows = claims.iter().map(|c| {
-        let mut why = match &c.right {
-            Some(right) => format!("right: {right}; {}", c.evidence),
-            None => c.evidence.clone(),
-        };
-        if let Some(scan) = &c.scan {
-            why += &format!("; the text is a scan, and this rests on {scan}");
-        }
-        vec![c.source.clone(), c.says.clone(), verdict(c).to_owned(), why]
+        let right = c.right.iter().map(|right| format!("right: {right}; "));
+        let scan = c.scan.iter();
+        let scan = scan.map(|scan| format!("; the text is a scan, and this rests on {scan}"));
+        let why = right.chain([c.evidence.clone()]).chain(scan).join("");
+        cells([&c.source, &c.says, &verdict(c), &why])
     });
-    let head = ["where", "claim", "so", "evidence"];
-    let table = table(&head, rows.collect(), width);
+    let table = table("where | claim | so | evidence", rows, width);
     format!("{}\n{table}\n", counted(claims))
 }

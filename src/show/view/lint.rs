@@ -15,6 +15,8 @@ use crate::view::with_assumptions;
 use assembly::{count, then};
 use finding::LintWords;
 
+/// The verdict on a file without redundant constraints.
+pub const NONE: &str = "no redundant constraints";
 /// Notes told of how a file was read.
 const NOTES: usize = 6;
 
@@ -169,7 +171,7 @@ impl Lint {
         let Lint { file, mobility, .. } = self;
         if self.redundant_at_most == 0 {
             return format!(
-                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n{}{}",
+                "{file}: {NONE} (σ = 0, W = {mobility}){}\n{}{}",
                 self.left_out(),
                 count(self.counted.filter(|_| self.left_out == 0), self.mobility),
                 self.told()
@@ -178,11 +180,16 @@ impl Lint {
         let (sigma, passing) = (self.sigma(), self.passing());
         let mut out = if self.is_clean() {
             format!(
-                "{file}: nothing is redundant over the motion; {sigma} at this pose, W = {mobility} there{}\n",
+                "{file}: {NONE} over the motion; {sigma} at this pose, W = {mobility} there{}\n",
                 self.left_out()
             )
         } else {
-            format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out())
+            let over = if self.redundant > 0 {
+                "overconstrained: "
+            } else {
+                ""
+            };
+            format!("{file}: {over}{sigma}, W = {mobility}{}\n", self.left_out())
         };
         if passing > 0 && !self.is_clean() {
             out += &format!("  {passing} of them at this pose only\n");

@@ -209,16 +209,10 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
 
 /// Reports how much a catalogue holds after `added` entries were added, and whether it was interrupted.
 pub(super) fn built(store: &Store, path: &Path, added: usize, what: &str) -> anyhow::Result<Done> {
-    output::to(None, |out| {
-        let text = built_text(store, path, added, what, output::width(None))?;
-        write!(out, "{text}")?;
-        if interrupt::pending() {
-            let path = path.display();
-            writeln!(
-                out,
-                "\nInterrupted: the same command continues with {path}."
-            )?;
-        }
-        Ok(Done::Found)
-    })
+    let mut text = built_text(store, path, added, what, output::width(None))?;
+    if interrupt::pending() {
+        let path = path.display();
+        text += &format!("\nInterrupted: the same command continues with {path}.\n");
+    }
+    output::put(None, text)
 }

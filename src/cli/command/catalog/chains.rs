@@ -99,9 +99,8 @@ struct Listing {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextJsonOrCsv,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 impl Listing {
@@ -111,14 +110,10 @@ impl Listing {
         all: &[T],
         text: impl Fn(&[T], Option<u16>) -> String,
     ) -> anyhow::Result<Done> {
-        let path = self.output.as_deref();
-        output::to(path, |out| {
-            match self.format {
-                TextJsonOrCsv::Text => write!(out, "{}", text(all, output::width(path)))?,
-                TextJsonOrCsv::Json => output::json(out, &all)?,
-                TextJsonOrCsv::Csv => write!(out, "{}", records(all))?,
-            }
-            Ok(Done::Found)
+        self.to.put(match self.format {
+            TextJsonOrCsv::Text => text(all, self.to.width()),
+            TextJsonOrCsv::Json => output::json(&all)?,
+            TextJsonOrCsv::Csv => records(all),
         })
     }
 }

@@ -1,6 +1,7 @@
 //! The arguments of `ozols statics`.
 
 use crate::cli::prelude::*;
+use crate::view::statics::told::ToldStatics;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StaticsMethod {
@@ -69,4 +70,25 @@ pub(crate) struct Statics {
     /// Write to a file instead of standard output; a folder with --stability.
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+}
+
+impl Statics {
+    /// Writes a text.
+    pub(crate) fn put(&self, text: String) -> anyhow::Result<Done> {
+        output::put(self.output.as_deref(), text)
+    }
+
+    /// Writes reactions in the format asked for; a text ends with what to do next.
+    pub(crate) fn put_reactions(
+        &self,
+        shown: &ToldStatics<'_>,
+        next: &[NextCommand],
+    ) -> anyhow::Result<Done> {
+        let width = output::width(self.output.as_deref());
+        self.put(match self.format {
+            StaticsFormat::Json => output::json(&shown.json())?,
+            StaticsFormat::Csv => shown.csv(),
+            StaticsFormat::Text => shown.text(width) + &next_commands::text(next, width),
+        })
+    }
 }

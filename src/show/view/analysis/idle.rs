@@ -48,7 +48,7 @@ pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
 
 /// Returns a fault of the drives: `immobile`, `surplus`, `dependent`, `locked` or `dead-point`, the joint of a locked drive, and all that
 /// in words.
-pub(super) fn fault<'a>(
+pub fn drive_fault<'a>(
     mechanism: &'a Mechanism,
     fault: &DriveFault,
 ) -> (&'static str, Option<&'a str>, String) {

@@ -154,14 +154,10 @@ pub(super) fn text(
         );
     }
     // The list is sorted, and so are the groups by their firsts.
-    /// What a change is, what it removes and what it costs.
-    type Kind = (String, usize, i64);
-    let mut groups: Vec<(Kind, Vec<&str>)> = Vec::new();
+    let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
     for x in &found.list {
-        let (key, joint) = (
-            (words(m, x), x.removes, x.cost_milli),
-            &*m.joints[x.joint].id,
-        );
+        let key = (words(m, x), x.removes, x.cost_milli);
+        let joint = &*m.joints[x.joint].id;
         match groups.iter_mut().find(|(k, _)| *k == key) {
             Some((_, joints)) => joints.push(joint),
             None => groups.push((key, vec![joint])),
@@ -171,25 +167,26 @@ pub(super) fn text(
         0 => String::new(),
         n => format!("\n  and {n} more; --format json lists them"),
     };
-    let rows = groups.into_iter().take(ROWS);
+    let rows = groups.iter().take(ROWS);
     let rows = rows.map(|((what, removes, milli), joints)| {
         let more = match joints.len().saturating_sub(JOINTS) {
             0 => String::new(),
             n => format!(" and {n} more"),
         };
-        vec![
-            format!("{}{more}", joints.iter().take(JOINTS).join(", ")),
-            what,
-            format!("{removes} of {}{}", concerned(s), kind(s)),
-            cost(milli),
-        ]
+        let joints = joints.iter().take(JOINTS).join(", ") + &more;
+        let removes = format!("{removes} of {}{}", concerned(s), kind(s));
+        cells([&joints, what, &removes, &cost(*milli)])
     });
-    let at = if found.list.len() == 1 {
-        "at"
+    let one_of = if found.list.len() == 1 {
+        ""
     } else {
-        "at (one of)"
+        " (one of)"
     };
-    let body = table(&[at, "change", "removes", "cost"], rows.collect(), width);
+    let body = table(
+        &format!("at{one_of} | change | removes | cost"),
+        rows,
+        width,
+    );
     let loose = if found.state != StateId::FREE {
         "\n  (the pad of an unloading joint hangs loose while nothing is held)"
     } else {

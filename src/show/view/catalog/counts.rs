@@ -126,8 +126,7 @@ and jaws move, and the jaws against each other.
 #[must_use]
 pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     let links = all.iter().filter_map(|row| row.number("links"));
-    let heads = links.map(|n| format!("{n} links")).collect_vec();
-    let heads = std::iter::once("").chain(heads.iter().map(String::as_str));
+    let heads = links.map(|n| format!(" | {n} links")).collect::<String>();
     let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
     let rows = named(OF_HINGES).filter_map(|(key, name)| {
         let of = all.iter().map(|row| row.number(key)).collect_vec();
@@ -137,7 +136,7 @@ pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     });
     format!(
         "{}\n\n{}",
-        table(&heads.collect_vec(), rows.collect(), width),
+        table(&heads, rows, width),
         fit(HINGED_LEGEND, width)
     )
 }
@@ -186,28 +185,16 @@ impl ChainData {
 /// Returns a table of chains.
 #[must_use]
 pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
-    let heads = [
-        "chain",
-        "joints",
-        "links",
-        "symmetries",
-        "frames",
-        "inputs",
-        "drives",
-    ];
+    let heads = "chain | joints | links | symmetries | frames | inputs | drives";
     let row = |c: &ChainData| {
-        let numbers = [c.frames, c.inputs, c.drives].map(|n| n.to_string());
-        let first = [c.code.clone(), c.joints.to_string(), c.assortment.clone()];
-        let symmetries = c.automorphisms.to_string();
-        first
-            .into_iter()
-            .chain([symmetries])
-            .chain(numbers)
-            .collect()
+        let (symmetries, links) = (&c.automorphisms, &c.assortment);
+        cells([
+            &c.code, &c.joints, links, symmetries, &c.frames, &c.inputs, &c.drives,
+        ])
     };
-    let rows = all.iter().map(row).collect();
+    let rows = all.iter().map(row);
     let note = "Chain: graph6 of the canonical numbering. Links: 4x2 are four with two joints.\n";
-    format!("{}\n\n{}", table(&heads, rows, width), fit(note, width))
+    format!("{}\n\n{}", table(heads, rows, width), fit(note, width))
 }
 
 /// The four places of an input and the jaws, in the order of columns: at the frame or between, apart or driven.
@@ -333,12 +320,12 @@ fn grippers(sum: &Census, width: Option<u16>) -> String {
         let place = word(between, ["between", "at frame"]);
         format!("{place}, {}", word(jaw, ["driven", "apart"]))
     });
-    let heads = std::iter::once("grippers of two jaws").chain(heads.iter().map(String::as_str));
+    let heads = format!("grippers of two jaws | {}", heads.join(" | "));
     let rows = named(OF_PAIRS).zip(PAIRED).map(|((_, name), of)| {
         let cells = columns.iter().map(|g| grouped(g[of]));
         std::iter::once(name.to_owned()).chain(cells).collect()
     });
-    table(&heads.collect_vec(), rows.collect(), width)
+    table(&heads, rows, width)
 }
 
 /// Counts of symmetric grippers of one number of links: the keys are a stable contract, in this order.
@@ -388,9 +375,8 @@ and a right one are one choice. Driven: a jaw is a link of the input joint.
 #[must_use]
 pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String {
     let links = all.iter().map(|c| c.links).unique().collect_vec();
-    let heads = links.iter().map(|n| format!("{n} links")).collect_vec();
-    let first = ["symmetry", "jaws", "choices"];
-    let heads = first.into_iter().chain(heads.iter().map(String::as_str));
+    let heads = links.iter().map(|n| format!(" | {n} links"));
+    let heads = format!("symmetry | jaws | choices{}", heads.format(""));
     let key = |c: &&SymmetricCountsData| (c.symmetry, c.jaws, c.orbits);
     let rows = all.iter().map(|c| key(&c)).unique().map(|own| {
         let (symmetry, jaws, orbits) = own;
@@ -401,7 +387,7 @@ pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String
     });
     format!(
         "{}\n\n{}",
-        table(&heads.collect_vec(), rows.collect(), width),
+        table(&heads, rows, width),
         fit(SYMMETRIC_LEGEND, width)
     )
 }

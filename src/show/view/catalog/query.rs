@@ -3,6 +3,7 @@
 use crate::format::csv;
 use crate::format::plain::plain;
 use crate::view::prelude::*;
+use crate::view::terminal::layout::table_of;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
 /// The answer to a question: as JSON a list of objects.
@@ -90,7 +91,7 @@ impl QueryAnswer {
         let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
         let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
-        format!("{}\n", table(&heads, rows.collect(), width))
+        format!("{}\n", table_of(&heads, rows.collect(), width))
     }
 
     /// Returns the answer as CSV, with unrounded numbers.

@@ -4,7 +4,6 @@ use crate::drive::RunShares;
 use crate::drive::programme::PATIENCE;
 use crate::view::prelude::*;
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 /// First failures told before the rest is left out.
 const SHOWN: usize = 6;
@@ -54,46 +53,38 @@ pub(super) fn json(s: &RunShares) -> Value {
     })
 }
 
-/// Writes them as lines of the report.
-pub(super) fn write(out: &mut String, s: &RunShares) -> std::fmt::Result {
+/// Adds them as lines of the report.
+pub(super) fn write(out: &mut Report, s: &RunShares) {
     let (samples, swings) = (s.long_runs.len(), s.long_runs.len() * s.discs.len());
     let percent = |n: usize, of: usize| format!("{:.1} %", 100.0 * share(n, of));
-    write!(
-        out,
-        "  of {} with stiffness, inertias, losses, cam and latches out by up to {} %: ",
-        plural(samples, "drive"),
-        significant(100.0 * s.tolerance)
-    )?;
-    if swings > 0 {
-        let (latched, of) = (s.latched(), plural(swings, "swing"));
-        write!(
-            out,
-            "{latched} of {of} latched ({}), ",
-            percent(latched, swings)
-        )?;
-    }
-    write!(
-        out,
-        "{} end the programme ({}), {} repeat it without end ({})",
-        s.complete(),
-        percent(s.complete(), samples),
-        s.lasting(),
-        percent(s.lasting(), samples)
-    )?;
-    if drifting(s) > 0 {
-        write!(out, ", {} still drift after {PATIENCE} swings", drifting(s))?;
-    }
-    writeln!(out)?;
+    let (all, out_by) = (plural(samples, "drive"), significant(100.0 * s.tolerance));
+    let (latched, complete, lasting) = (s.latched(), s.complete(), s.lasting());
+    let first = if swings > 0 {
+        let of = plural(swings, "swing");
+        format!("{latched} of {of} latched ({}), ", percent(latched, swings))
+    } else {
+        String::new()
+    };
+    let drifting = match drifting(s) {
+        0 => String::new(),
+        n => format!(", {n} still drift after {PATIENCE} swings"),
+    };
+    out.line(format!(
+        "  of {all} with stiffness, inertias, losses, cam and latches out by up to {out_by} %: {first}\
+         {complete} end the programme ({}), {lasting} repeat it without end ({}){drifting}",
+        percent(complete, samples),
+        percent(lasting, samples)
+    ));
     let failures = first_failures(s);
     let Some([last, ..]) = failures.last() else {
-        return Ok(());
+        return;
     };
-    let told =
+    let words =
         |[swing, disc, samples]: &[usize; 3]| format!("swing {swing} (disc {disc}) in {samples}");
-    let first: Vec<String> = failures.iter().take(SHOWN).map(told).collect();
-    write!(out, "    first to miss its latch: {}", first.join(", "))?;
-    match failures.iter().skip(SHOWN).map(|f| f[2]).sum::<usize>() {
-        0 => writeln!(out),
-        later => writeln!(out, ", a later one in {later}, up to swing {last}"),
-    }
+    let first = failures.iter().take(SHOWN).map(words).join(", ");
+    let later = match failures.iter().skip(SHOWN).map(|f| f[2]).sum::<usize>() {
+        0 => String::new(),
+        later => format!(", a later one in {later}, up to swing {last}"),
+    };
+    out.line(format!("    first to miss its latch: {first}{later}"));
 }

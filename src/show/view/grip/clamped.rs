@@ -9,8 +9,6 @@ use crate::model::grip::GripLoad;
 use crate::view::grip::reasons;
 use crate::view::grip::text::effort_of_drive;
 use crate::view::prelude::*;
-use serde::Serializer;
-use std::fmt::Write;
 
 /// The loads from a grip round one part.
 #[derive(Debug)]
@@ -96,12 +94,6 @@ impl<'a> NotHeld<'a> {
     }
 }
 
-impl Serialize for Clamped<'_> {
-    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-        self.data().serialize(s)
-    }
-}
-
 impl Clamped<'_> {
     /// Returns the contacts as joints of the mechanism: the joint, the link that touches, and the force on the part; nothing where it is
     /// not held.
@@ -115,7 +107,7 @@ impl Clamped<'_> {
     }
 
     /// Returns the loads as data.
-    fn data(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         let hardest = self.row.hardest.as_ref();
         let held = hardest.and_then(Hardest::held);
         let contact = |(contact, jaw, force): (&str, &str, &ContactForce)| {
@@ -141,69 +133,54 @@ impl Clamped<'_> {
         load(self.grip).map_or(1.0, |l| l.safety)
     }
 
-    /// The same for people, fitted to a terminal of `width` columns where one is given; `flat` where forces across the plane
-    /// of motion are left out below.
+    /// Returns the same for people, fitted to a terminal of `width` columns if one is given; `flat` is true if forces across the
+    /// plane of motion are left out below.
     #[must_use]
     pub fn text(&self, flat: bool, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write(&mut out, flat, width);
-        for other in self.grip.study.rows.iter().filter(|r| !r.holds()) {
-            out.push_str(&not_held(self.grip, other));
+        let (g, mut out) = (self.grip, Report::new(width));
+        if let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) {
+            self.write(&mut out, moment, &contacts.collect_vec(), flat);
         }
-        out
+        let others = g.study.rows.iter().filter(|r| !r.holds());
+        out.text() + &others.map(|other| not_held(g, other)).collect::<String>()
     }
 
-    fn write(&self, out: &mut String, flat: bool, width: Option<u16>) -> std::fmt::Result {
-        let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) else {
-            return Ok(());
-        };
-        let contacts: Vec<_> = contacts.collect();
+    fn write(
+        &self,
+        out: &mut Report,
+        moment: f64,
+        contacts: &[(&str, &str, &ContactForce)],
+        flat: bool,
+    ) {
         let (g, m) = (self.grip, &self.grip.mechanism);
         let choice = match g.study.hardest() {
             Some(hardest) if hardest.diameter == self.row.diameter => "the worst case",
             _ => "the worst case of this diameter",
         };
-        writeln!(
-            out,
-            "{}, state {}: the part is cut free, and the jaws bear the contact forces of {choice} (`ozols grip`):",
-            m.name, m.states[g.state]
-        )?;
-        writeln!(
-            out,
-            "{}, {}, safety factor {}",
-            diameter(g, self.row),
-            self.row.hardest.as_ref().map_or("", |h| &h.case),
-            significant(self.safety())
-        )?;
-        write!(out, "The grip asks {} N·m per lever", significant(moment))?;
-        if let Some((effort, slides)) = self.found.effort {
-            write!(out, ", {}", effort_of_drive(effort, slides))?;
-        }
-        writeln!(
-            out,
-            "; its drive below bears that and the loads of the links\n"
-        )?;
-        let rows = contacts.iter().map(|(contact, jaw, force)| {
-            let mut row = vec![contact.to_string(), jaw.to_string()];
-            row.extend([force.normal, force.along, force.axial].map(significant));
-            row
+        let (name, state) = (&m.name, &m.states[g.state]);
+        out.line(format!(
+            "{name}, state {state}: the part is cut free, and the jaws bear the contact forces of {choice} (`ozols grip`):"
+        ));
+        let case = self.row.hardest.as_ref().map_or("", |h| &h.case);
+        let (diameter, safety) = (diameter(g, self.row), significant(self.safety()));
+        out.line(format!("{diameter}, {case}, safety factor {safety}"));
+        let effort = self.found.effort;
+        let effort = effort.map(|(x, slides)| format!(", {}", effort_of_drive(x, slides)));
+        out.line(format!(
+            "The grip asks {} N·m per lever{}; its drive below bears that and the loads of the links\n",
+            significant(moment),
+            effort.unwrap_or_default()
+        ));
+        let rows = contacts.iter().map(|(contact, jaw, f)| {
+            let [normal, along, axial] = [f.normal, f.along, f.axial].map(significant);
+            cells([contact, jaw, &normal, &along, &axial])
         });
-        let head = [
-            "contact",
-            "jaw",
-            "normal, N",
-            "along the face, N",
-            "along the part, N",
-        ];
-        writeln!(out, "{}\n", table(&head, rows.collect(), width))?;
+        let heads = "contact | jaw | normal, N | along the face, N | along the part, N";
+        out.table(heads, rows);
+        out.line("");
         let mut each = contacts.iter();
         if flat && each.any(|(.., f)| f.axial.abs() > 1e-6 * f.normal) {
-            writeln!(
-                out,
-                "Forces along the part are across the plane of motion and omitted below; --spatial includes them.\n"
-            )?;
+            out.line("Forces along the part are across the plane of motion and omitted below; --spatial includes them.\n");
         }
-        Ok(())
     }
 }

@@ -6,7 +6,6 @@ use crate::grip::clamped_part::ClampedPart;
 use crate::grip::faces::{JawFace, PressureArea};
 use crate::grip::force_closure::{ClosureShares, ForceClosure, NOTHING};
 use crate::view::prelude::*;
-use std::fmt::Write;
 
 /// What the contacts of a state hold.
 #[derive(Debug)]
@@ -171,84 +170,80 @@ impl ClosureData<'_> {
         })
     }
 
-    /// The report, fitted to a terminal of `width` columns where one is given.
+    /// Returns the report, fitted to a terminal of `width` columns if one is given.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write(&mut out, width);
-        fit(&out, width)
-    }
-
-    /// A length in the file's unit, with its symbol.
-    fn long(&self, x: f64) -> String {
-        self.mechanism.length_unit.words(x)
-    }
-
-    fn contact_table(&self, width: Option<u16>) -> String {
-        let rows = self.part.faces.iter().map(|c| {
-            let reach = match (shape(c), self.reach(c)) {
-                ("point", _) => "-".to_owned(),
-                (_, Some(r)) => self.long(r),
-                (_, None) => "no end stated".to_owned(),
-            };
-            let friction = c.friction.map_or("as it takes".to_owned(), significant);
-            let contact = &self.mechanism.joints[c.joint].id;
-            vec![contact.clone(), shape(c).to_owned(), reach, friction]
-        });
-        let head = ["contact", "shape", "radius or half length", "friction"];
-        table(&head, rows.collect(), width)
-    }
-
-    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+        let mut out = Report::new(width);
         let (m, part) = (self.mechanism, self.part);
-        writeln!(
-            out,
-            "{}, state {}: {}\n{}\n",
-            m.name,
-            m.states[part.state],
+        let (force, form) = (
             verdict(&self.force, "force closure"),
-            verdict(&self.form, "form closure")
-        )?;
-        writeln!(
-            out,
+            verdict(&self.form, "form closure"),
+        );
+        out.line(format!(
+            "{}, state {}: {force}\n{form}\n",
+            m.name, m.states[part.state]
+        ));
+        out.line(format!(
             "  part {} between {}, drives held; loads by the sum of the normal forces, moments over {}\n  \
              (root mean square distance of the contacts from their middle)",
             m.links[part.object].id,
             plural(part.faces.len(), "contact"),
             self.long(self.size())
-        )?;
+        ));
         if self.loose() > 0 {
-            writeln!(
-                out,
-                "  with drives held and contacts released the jaws have {}, which limit what they can bear",
-                plural(self.loose(), "free motion")
-            )?;
+            let motions = plural(self.loose(), "free motion");
+            out.line(format!(
+                "  with drives held and contacts released the jaws have {motions}, which limit what they can bear"
+            ));
         }
-        writeln!(out, "\n{}", self.contact_table(width))?;
+        out.line("");
+        let heads = "contact | shape | radius or half length | friction";
+        out.table(heads, part.faces.iter().map(|c| self.contact_row(c)));
+        out.line("");
         let pairs = self.force.along.iter().zip(&self.form.along);
         let rows = pairs.map(|((d, a), (_, b))| vec![words(d), amount(*a), amount(*b)]);
-        let head = ["load on the part", "resisted", "without friction"];
-        writeln!(out, "\n{}", table(&head, rows.collect(), width))?;
+        out.table("load on the part | resisted | without friction", rows);
         if let Some(s) = &self.samples {
-            writeln!(
-                out,
-                "\n  of {} with contacts out by up to {}: {} with force closure ({:.1} %), {} with form closure ({:.1} %)",
-                plural(s.samples, "sample"),
-                self.long(s.tolerance),
-                s.force_closed,
-                100.0 * share(s.force_closed, s.samples),
-                s.form_closed,
-                100.0 * share(s.form_closed, s.samples)
-            )?;
-            if s.force_undecided + s.form_undecided > 0 {
-                writeln!(
-                    out,
-                    "  undecided, the margin within the accuracy of the programmes: force closure of {}, form closure of {}",
-                    s.force_undecided, s.form_undecided
-                )?;
-            }
+            self.write_samples(&mut out, s);
         }
-        Ok(())
+        out.text()
+    }
+
+    /// Returns a length in the file's unit, with its symbol.
+    fn long(&self, x: f64) -> String {
+        self.mechanism.length_unit.words(x)
+    }
+
+    fn contact_row(&self, c: &JawFace) -> Vec<String> {
+        let reach = match (shape(c), self.reach(c)) {
+            ("point", _) => "-".to_owned(),
+            (_, Some(r)) => self.long(r),
+            (_, None) => "no end stated".to_owned(),
+        };
+        let friction = c.friction.map_or("as it takes".to_owned(), significant);
+        cells([
+            &self.mechanism.joints[c.joint].id,
+            &shape(c),
+            &reach,
+            &friction,
+        ])
+    }
+
+    fn write_samples(&self, out: &mut Report, s: &ClosureShares) {
+        let percent = |n: usize| 100.0 * share(n, s.samples);
+        let (force, form) = (s.force_closed, s.form_closed);
+        out.line(format!(
+            "\n  of {} with contacts out by up to {}: {force} with force closure ({:.1} %), {form} with form closure ({:.1} %)",
+            plural(s.samples, "sample"),
+            self.long(s.tolerance),
+            percent(force),
+            percent(form)
+        ));
+        if s.force_undecided + s.form_undecided > 0 {
+            out.line(format!(
+                "  undecided, the margin within the accuracy of the programmes: force closure of {}, form closure of {}",
+                s.force_undecided, s.form_undecided
+            ));
+        }
     }
 }

@@ -4,8 +4,8 @@ use crate::chart::{Axis, Chart, Series, Style};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
+use crate::view::grip::text::number;
 use crate::view::prelude::*;
-use std::fmt::Write;
 
 /// Rows shown before the rest is left out.
 const SHOWN: usize = 40;
@@ -73,52 +73,42 @@ impl GripMotion {
         }
     }
 
-    /// For people, fitted to a terminal of `width` columns where one is given.
+    /// Returns it for people, fitted to a terminal of `width` columns if one is given.
     #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "\n  Along the motion, {}: {}\n",
-            plural(self.steps.len(), "step"),
-            self.verdict()
-        );
-        let symbol = self.unit.symbol;
+        let (mut out, all) = (Report::new(width), self.steps.len());
+        let (steps, verdict) = (plural(all, "step"), self.verdict());
+        out.line(format!("\n  Along the motion, {steps}: {verdict}\n"));
         let turns = |s: &StepTaken| s.effort.is_some_and(|(_, slides)| !slides);
         let effort = if self.steps.iter().any(turns) {
-            "drive, N·m"
+            "N·m"
         } else {
-            "drive, N"
+            "N"
         };
-        let diameter = format!("D, {symbol}");
-        let head = [
-            "step",
-            "time, s",
-            &diameter,
-            "acceleration, m/s²",
-            "moment per lever, N·m",
-            effort,
-            "",
-        ];
-        let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
+        let symbol = self.unit.symbol;
+        let heads = format!(
+            "step | time, s | D, {symbol} | acceleration, m/s² | moment per lever, N·m | drive, {effort} | "
+        );
         let rows = self.steps.iter().take(SHOWN).enumerate().map(|(i, s)| {
-            vec![
-                (i + 1).to_string(),
-                number(s.of.time),
-                significant(s.diameter / self.unit.metres),
-                s.of.acceleration.map(significant).join(", "),
-                number(s.drive()),
-                number(s.effort.map(|e| e.0)),
-                word(s).to_owned(),
-            ]
+            let diameter = significant(s.diameter / self.unit.metres);
+            let acceleration = s.of.acceleration.map(significant).join(", ");
+            let [time, drive, effort] = [s.of.time, s.drive(), s.effort.map(|e| e.0)].map(number);
+            cells([
+                &(i + 1),
+                &time,
+                &diameter,
+                &acceleration,
+                &drive,
+                &effort,
+                &word(s),
+            ])
         });
-        let _ = writeln!(out, "{}", table(&head, rows.collect(), width));
-        if self.steps.len() > SHOWN {
-            let left = plural(self.steps.len() - SHOWN, "step");
-            let _ = writeln!(out, "\n  and {left} more; --format json has them all");
+        out.table(&heads, rows);
+        if let left @ 1.. = all.saturating_sub(SHOWN) {
+            let left = plural(left, "step");
+            out.line(format!("\n  and {left} more; --format json has them all"));
         }
-        fit(&out, width)
+        out.text()
     }
 
     /// The moment, and the drive's effort where it is known, over the motion.

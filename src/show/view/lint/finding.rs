@@ -7,6 +7,7 @@ use crate::geom::vector::Vector;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
 use crate::robots::{ElementPlace, Origin};
+use crate::view::lint::NONE;
 use crate::view::prelude::*;
 
 /// Remedies told of each finding.
@@ -231,7 +232,7 @@ impl PassedOver {
     pub fn text(&self) -> String {
         let (file, why) = (line(&self.file), line(&self.why));
         if self.rigid {
-            format!("{file}: nothing is redundant: {why}\n")
+            format!("{file}: {NONE}: {why}\n")
         } else {
             format!("{file}: not examined: {why}\n")
         }

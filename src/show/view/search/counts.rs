@@ -238,13 +238,13 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
         (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
         _ => None,
     };
-    let rows = each.chain(folded).chain(left_out).collect();
-    let condition = condition(outcome);
-    let heads: &[&str] = match lasting {
-        Some(_) => &["W", &condition, "in the drawn pose", "throughout"],
-        None => &["W", &condition, "admissible"],
+    let rows = each.chain(folded).chain(left_out);
+    let admissible = match lasting {
+        Some(_) => "in the drawn pose | throughout",
+        None => "admissible",
     };
-    format!("\n{}\n", table(heads, rows, width))
+    let heads = format!("W | {} | {admissible}", condition(outcome));
+    format!("\n{}\n", table(&heads, rows, width))
 }
 
 /// How many of the variants that are listed are minimal, and what the others are, said once; `None` where that was not counted.

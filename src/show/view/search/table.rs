@@ -35,14 +35,14 @@ pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u1
         row.push(in_words(&outcome.search, &v.changes()));
         row
     });
-    let number = if outcome.request.distinct { "idea" } else { "" };
-    let mut head = vec![number, "cost", "W", "σ"];
-    head.extend(outcome.search.conditions.state.map(|_| "harmful"));
-    head.extend(checked.then_some("cond."));
-    head.extend(ranking.into_iter().flat_map(ranking::columns));
-    head.extend(outcome.request.distinct.then_some("stands for"));
-    head.push("changes");
-    table(&head, rows.collect(), width)
+    let distinct = outcome.request.distinct;
+    let mut heads = vec![if distinct { "idea" } else { "" }, "cost", "W", "σ"];
+    heads.extend(outcome.search.conditions.state.map(|_| "harmful"));
+    heads.extend(checked.then_some("cond."));
+    heads.extend(ranking.into_iter().flat_map(ranking::columns));
+    heads.extend(distinct.then_some("stands for"));
+    heads.push("changes");
+    table(&heads.join(" | "), rows, width)
 }
 
 /// σ contour by contour of some variants, those alike together.
