@@ -13,7 +13,6 @@ use crate::view::prelude::*;
 use std::cmp::Reverse;
 
 /// Returns everything for programs: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
-#[must_use]
 pub fn bench_json(trials: &[Trial], machine: &Machine) -> Value {
     let trial = |t: &Trial| {
         let found = |i: usize| t.found.as_ref().map(|f| f[i].to_string());
@@ -46,7 +45,6 @@ pub fn bench_json(trials: &[Trial], machine: &Machine) -> Value {
 }
 
 /// A table for each mechanism, and on what machine they were made.
-#[must_use]
 pub fn bench_text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
     let mut out = String::new();
     for t in trials {
@@ -131,7 +129,6 @@ fn notes(t: &Trial) -> String {
 
 /// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph
 /// for each study.
-#[must_use]
 pub fn summary(
     [survey, generated]: [&Survey; 2],
     studies: &[Study],

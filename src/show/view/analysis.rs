@@ -47,7 +47,6 @@ pub struct State<'a> {
 
 impl<'a> Analysis<'a> {
     /// What `found` says of a mechanism, with `advice` for each of its states, or none.
-    #[must_use]
     pub fn new(
         mechanism: &'a Mechanism,
         found: &'a [StateAnalysis],
@@ -67,7 +66,6 @@ impl<'a> Analysis<'a> {
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let m = self.mechanism;
         json!({

@@ -4,7 +4,6 @@ use crate::model::claim::{Claim, Topic};
 use crate::view::prelude::*;
 
 /// Those about a topic, in the order of the file.
-#[must_use]
 pub(crate) fn about(claims: &[Claim], topic: Topic) -> Vec<&Claim> {
     claims.iter().filter(|c| c.topic == topic).collect()
 }
@@ -23,7 +22,6 @@ fn verdict(claim: &Claim) -> &'static str {
 }
 
 /// Returns a line that counts the claims; empty if there are none.
-#[must_use]
 pub(crate) fn counted(claims: &[&Claim]) -> String {
     if claims.is_empty() {
         return String::new();
@@ -42,7 +40,6 @@ pub(crate) fn counted(claims: &[&Claim]) -> String {
 }
 
 /// Returns the same with a table of the claims.
-#[must_use]
 pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
     if claims.is_empty() {
         return String::new();

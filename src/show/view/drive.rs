@@ -38,7 +38,6 @@ fn feed_moments(d: &Design) -> Vec<(f64, f64)> {
 
 impl<'a> Drive<'a> {
     /// A drive of a file and what was found of it.
-    #[must_use]
     pub fn new(file: &'a WorkloadFile<DriveSpec>, found: &'a Driving) -> Self {
         Drive {
             file,
@@ -49,13 +48,11 @@ impl<'a> Drive<'a> {
     }
 
     /// Returns whether every swing ended in a latch.
-    #[must_use]
     pub fn complete(&self) -> bool {
         self.design.is_some_and(|d| d.run.complete())
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let spec = &self.file.spec;
         json!({

@@ -53,13 +53,11 @@ impl<'a> GripReport<'a> {
     }
 
     /// Returns whether every diameter is held in every case, and at every step of the motion.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.found.study.holds() && self.motion.as_ref().is_none_or(GripMotion::holds)
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let (study, hardest) = (&self.found.study, self.hardest());
         json!({

@@ -76,7 +76,6 @@ pub struct Lint {
 
 impl Lint {
     /// What was found in a mechanism, in the words of the description it came from, where it did.
-    #[must_use]
     pub fn new(file: &str, m: &Mechanism, read: Option<&Imported>, found: &HeldTwice) -> Lint {
         let origin = read.map(|i| &i.origin);
         let report = read.map(|i| &i.report);
@@ -133,7 +132,6 @@ impl Lint {
     }
 
     /// The same with the types that joints are to get, and W then: they go before single freedoms.
-    #[must_use]
     pub fn changing(mut self, found: Option<(Vec<TypeChange>, usize)>) -> Lint {
         if let Some((changes, mobility)) = found {
             self.cheapest = changes.iter().map(TypeChange::words).collect();
@@ -143,13 +141,11 @@ impl Lint {
     }
 
     /// Whether nothing is redundant, for sure, or at this pose only.
-    #[must_use]
     pub fn is_clean(&self) -> bool {
         self.redundant_over_motion == 0
     }
 
     /// Whether the file is in order: nothing is redundant, and nothing that could be was left out.
-    #[must_use]
     pub fn is_in_order(&self) -> bool {
         self.is_clean() && self.left_out == 0
     }
@@ -160,13 +156,11 @@ impl Lint {
     }
 
     /// Whether σ is one number.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.redundant == self.redundant_at_most
     }
 
     /// The findings, a paragraph each.
-    #[must_use]
     pub fn text(&self) -> String {
         let Lint { file, mobility, .. } = self;
         if self.redundant_at_most == 0 {
@@ -262,7 +256,6 @@ impl Lint {
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
-    #[must_use]
     pub fn sigma(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
         if self.is_decided() {
@@ -280,7 +273,6 @@ impl Lint {
 }
 
 /// What was found in some files as JSON, and which were passed over.
-#[must_use]
 pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
     finding::in_json(&mut out, passed_over);

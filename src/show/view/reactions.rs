@@ -50,7 +50,6 @@ fn open_components(open: &[bool; 6]) -> Vec<&'static str> {
 
 impl<'a> Reactions<'a> {
     /// The reactions of a state.
-    #[must_use]
     pub fn new(of: &'a Mechanism, state: StateId, found: &'a Solution) -> Self {
         Reactions {
             of,
@@ -61,7 +60,6 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns true if these are the only reactions in equilibrium.
-    #[must_use]
     pub fn is_unique(&self) -> bool {
         self.found.choice == Uniqueness::Unique
     }
@@ -95,7 +93,6 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let s = self.found;
         let joints = |list: &Vec<JointReaction>| -> Value {
@@ -162,7 +159,6 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns one joint a line, and one for each joint of a coupling.
-    #[must_use]
     pub fn csv(&self) -> String {
         table(&HEADS, self.rows())
     }

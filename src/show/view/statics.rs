@@ -67,7 +67,6 @@ fn groups(m: &PlanarMechanism, d: &Decomposition, conditions: &[f64]) -> Value {
 
 impl Structures<'_> {
     /// Returns the structures as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let m = self.planar;
         let one = |x: &DrivenStructure| {
@@ -123,7 +122,6 @@ impl<'a> StaticsData<'a> {
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let (m, s) = (self.planar(), self.found);
         let d = &s.decomposition;

@@ -23,7 +23,6 @@ pub struct StrokeData<'a> {
 
 impl<'a> StrokeData<'a> {
     /// Follows a stroke that is asked for, and says what was found.
-    #[must_use]
     pub fn of(asked: &AskedStroke<'a>) -> StrokeData<'a> {
         let (m, state) = asked.subject();
         let (drive, slides) = asked.drive();
@@ -38,14 +37,12 @@ impl<'a> StrokeData<'a> {
     }
 
     /// Returns whether the way ends before the last pose asked for.
-    #[must_use]
     pub fn stops(&self) -> bool {
         self.found.stop.is_some()
     }
 
     /// Returns all of it as data. An output is where the middle of its joints is, in the file's length unit, and by what it has turned
     /// since the pose of the file `[rad]`.
-    #[must_use]
     pub fn json(&self) -> Value {
         let found = &self.found;
         let output = |o: &Output| {
@@ -109,7 +106,6 @@ impl<'a> StrokeData<'a> {
     }
 
     /// Returns the stroke for people: one row a pose, where the rank changes, what no drive decides, and why the way ends early.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let (found, mut out) = (&self.found, Report::new(None));
         let [from, to] = self.range.map(|at| self.place(at, 3));
@@ -181,7 +177,6 @@ impl<'a> StrokeData<'a> {
     }
 
     /// Conditioning over the stroke.
-    #[must_use]
     pub fn chart(&self) -> Chart {
         let x = |at: f64| if self.turns() { at.to_degrees() } else { at };
         let series = |name: &str, style, y: &dyn Fn(usize) -> f64| Series {

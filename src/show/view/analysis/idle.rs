@@ -5,7 +5,6 @@ use crate::redundancy::local_mobility::Idle;
 use crate::view::prelude::*;
 
 /// "link 5 spins about the line through 4-5 and 5-1".
-#[must_use]
 pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
     let names = motion
         .links
@@ -35,7 +34,6 @@ pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
 }
 
 /// Neighbours that read alike told once, with how often.
-#[must_use]
 pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
     let alike = motions.dedup_with_count();
     alike

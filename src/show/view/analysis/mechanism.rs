@@ -8,7 +8,6 @@ use num_bigint::BigUint;
 const SHOWN: usize = 12;
 
 /// The links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
-#[must_use]
 pub fn describe(m: &Mechanism, across: f64) -> Vec<String> {
     let mut out = vec![links(m, across), joints(m), states(m), search(m)];
     out.extend(workload(m));

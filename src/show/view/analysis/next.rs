@@ -7,7 +7,6 @@ use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 
 /// What to do after an analysis of `file`.
-#[must_use]
 pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand> {
     let mut steps: Vec<NextCommand> = states.iter().filter_map(|s| to_remove(s, file)).collect();
     if !steps.is_empty() {

@@ -25,7 +25,6 @@ pub enum Advice {
 }
 
 /// How many redundant constraints of a state suggestions are about: its own, or those it adds.
-#[must_use]
 pub fn concerned(s: &StateAnalysis) -> usize {
     match &s.external {
         None => s.redundant,
@@ -64,7 +63,6 @@ pub fn advise(
 }
 
 /// Returns the advice on a state of a mechanism as data.
-#[must_use]
 pub(super) fn json(m: &Mechanism, s: &StateAnalysis, advice: &Advice) -> Value {
     let found = match advice {
         Advice::Nothing => return Value::Null,
@@ -128,7 +126,6 @@ fn kind(s: &StateAnalysis) -> &'static str {
 }
 
 /// Returns the best single changes as a table, or that there are none.
-#[must_use]
 pub(super) fn text(
     m: &Mechanism,
     s: &StateAnalysis,

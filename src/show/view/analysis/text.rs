@@ -15,7 +15,6 @@ const MOTIONS: usize = 6;
 impl Analysis<'_> {
     /// Returns the analysis without its stroke, fitted to a terminal of `width` columns if one is given: what is redundant, what moves, and
     /// what to change. With `verbose` it also has the counts behind W and σ, the method, the self-stresses and published claims.
-    #[must_use]
     pub fn text(&self, width: Option<u16>, verbose: bool) -> String {
         let states = self.states.iter().map(|s| {
             let mut out = Report::new(width);
@@ -184,14 +183,12 @@ impl State<'_> {
     }
 
     /// W, a range where rounded coordinates do not decide.
-    #[must_use]
     pub(crate) fn mobility_figure(&self) -> String {
         let (s, most) = (self.found, self.found.at_most());
         span(s.mobility, most.map_or(s.mobility, |(w, _)| w))
     }
 
     /// The answer in a few words.
-    #[must_use]
     pub fn verdict(&self) -> String {
         let least = self.found.redundant;
         if let Some((_, most)) = self.found.at_most() {
@@ -229,7 +226,6 @@ impl State<'_> {
     }
 
     /// The finite mobility and how it is known.
-    #[must_use]
     pub fn finite(&self) -> String {
         let finite = &self.found.finite;
         let certainty = as_read(self.mechanism, finite.describe());
@@ -237,7 +233,6 @@ impl State<'_> {
     }
 
     /// Whether Malyshev's formula gives another mobility than the rank.
-    #[must_use]
     pub(crate) fn counting_is_wrong(&self) -> bool {
         i64::try_from(self.found.mobility) != Ok(self.found.formula_mobility)
     }
@@ -249,7 +244,6 @@ impl State<'_> {
     }
 
     /// Idle motions in words, those that read alike told once.
-    #[must_use]
     pub(crate) fn idle_motions(&self) -> Vec<String> {
         let words = |i| idle::words(self.mechanism, i);
         idle::told_once(self.found.idle.iter().map(words))
@@ -311,7 +305,6 @@ impl State<'_> {
     }
 
     /// Returns what a self-stress is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
-    #[must_use]
     pub fn name(&self, place: usize) -> String {
         let t = &self.found.self_stresses[place];
         let (joint, what) = self.simplest(t).unwrap_or_default();

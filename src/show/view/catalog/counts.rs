@@ -91,7 +91,6 @@ fn named(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str
 }
 
 /// Returns the row of one number of links. Without a census, it has only the number of chains.
-#[must_use]
 pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Census>) -> CountRow {
     let of = |count: fn(&Census) -> u64| census.map(count);
     let counted = [
@@ -123,7 +122,6 @@ and jaws move, and the jaws against each other.
 ";
 
 /// Returns a table with a column for each number of links, without rows that have no counts.
-#[must_use]
 pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     let links = all.iter().filter_map(|row| row.number("links"));
     let heads = links.map(|n| format!(" | {n} links")).collect::<String>();
@@ -158,7 +156,6 @@ pub struct ChainData {
 
 impl ChainData {
     /// Returns the data of a chain in canonical numbering.
-    #[must_use]
     pub fn new(chain: &Chain) -> ChainData {
         let degrees = (0..chain.links())
             .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
@@ -183,7 +180,6 @@ impl ChainData {
 }
 
 /// Returns a table of chains.
-#[must_use]
 pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
     let heads = "chain | joints | links | symmetries | frames | inputs | drives";
     let row = |c: &ChainData| {
@@ -225,7 +221,6 @@ fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
 }
 
 /// Returns the rows of one number of links, one for each choice of kinds and drive. The counts of chains are repeated for each drive.
-#[must_use]
 pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
     let drives = PLACES.into_iter().cartesian_product([false, true]);
     let row = |kinds: &Kinds, c: &Census, ((between, jaw), slides): ((bool, bool), bool)| {
@@ -279,7 +274,6 @@ and input joint in place. Mirror, half turn: they move so in places so symmetric
 ";
 
 /// Returns the counts of each number of links as a paragraph and a table.
-#[must_use]
 pub fn pair_text(all: &[(usize, BTreeMap<Kinds, Census>)], width: Option<u16>) -> String {
     let mut out = String::new();
     for (links, cells) in all {
@@ -342,7 +336,6 @@ pub struct SymmetricCountsData {
 }
 
 /// Returns the rows of one number of links, including those whose count is zero.
-#[must_use]
 pub fn symmetric_rows(
     links: usize,
     most: usize,
@@ -372,7 +365,6 @@ and a right one are one choice. Driven: a jaw is a link of the input joint.
 ";
 
 /// Returns a table with a row for each symmetry and number of choices, and a column for each number of links.
-#[must_use]
 pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String {
     let links = all.iter().map(|c| c.links).unique().collect_vec();
     let heads = links.iter().map(|n| format!(" | {n} links"));

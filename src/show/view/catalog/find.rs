@@ -62,7 +62,6 @@ pub struct InCatalogue {
 impl FoundData {
     /// Of a mechanism's structure and the smallest part of it that holds all roles, given by its links, with what a catalogue has
     /// of this part, where one was asked.
-    #[must_use]
     pub fn new(found: &Recognized, part: &[usize], known: Option<InCatalogue>) -> FoundData {
         let PairStructure { chain, roles } = &found.structure;
         let in_count = chain.has_carriers() && moves_throughout(chain);
@@ -117,7 +116,6 @@ impl FoundData {
     }
 
     /// Whether something is known by it: a well-known scheme, or an entry of the catalogue asked.
-    #[must_use]
     pub fn is_known(&self) -> bool {
         !self.classics.is_empty() || self.catalogue.as_ref().is_some_and(|c| !c.is_empty())
     }
@@ -136,7 +134,6 @@ fn symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Symmetrie
 }
 
 /// A paragraph on each of structure, scheme and catalogue.
-#[must_use]
 pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
     let several = |n: usize, word: &str| match n {
         0 => None,

@@ -86,7 +86,6 @@ fn head(name: &str) -> String {
 
 impl QueryAnswer {
     /// Returns the answer as a table for people.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
@@ -95,7 +94,6 @@ impl QueryAnswer {
     }
 
     /// Returns the answer as CSV, with unrounded numbers.
-    #[must_use]
     pub fn csv(&self) -> String {
         let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
         csv::table(

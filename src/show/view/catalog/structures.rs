@@ -290,7 +290,6 @@ impl StructureData {
     }
 
     /// Returns true if there is a mechanism of it.
-    #[must_use]
     pub fn has_layout(&self) -> bool {
         self.layout.is_some() || self.is_drawn()
     }
@@ -301,7 +300,6 @@ impl StructureData {
     }
 
     /// Returns all of it for people, the verdict first.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let is_drawn = self.is_drawn();
         let figures = if is_drawn {

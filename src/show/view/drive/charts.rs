@@ -10,7 +10,6 @@ use crate::view::drive::{Drive, feed_moments};
 const PER_SWING: u32 = 48;
 
 /// The cam's profile, where the cam's and the roller's radius are stated; in the file's unit.
-#[must_use]
 pub fn cam(d: &Drive<'_>) -> Option<Outline> {
     let cam = d.design?.cam.as_ref()?;
     let (profile, unit) = (cam.profile.as_ref()?, d.file.length_unit);
@@ -52,7 +51,6 @@ pub fn cam(d: &Drive<'_>) -> Option<Outline> {
 
 /// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
 /// outwards from the axis (its x), the part along the axis (its z).
-#[must_use]
 pub fn motion(d: &Drive<'_>) -> Option<String> {
     let (found, payload) = (d.design?, d.file.spec.payload?);
     let rows = found
@@ -70,7 +68,6 @@ pub fn motion(d: &Drive<'_>) -> Option<String> {
 }
 
 /// Both charts with the names of their files; none without a bar.
-#[must_use]
 pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let Some(found) = d.design else {
         return Vec::new();

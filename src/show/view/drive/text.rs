@@ -15,7 +15,6 @@ const SHOWN: usize = 24;
 const PIECES: usize = 6;
 
 /// Returns the report, fitted to a terminal of `width` columns if one is given.
-#[must_use]
 pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
     let mut out = Report::new(width);
     match d.design {

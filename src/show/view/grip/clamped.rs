@@ -43,13 +43,11 @@ fn diameter(g: &Gripping, row: &DiameterRow) -> String {
 }
 
 /// The pose in a few words.
-#[must_use]
 pub(crate) fn pose(g: &Gripping, row: &DiameterRow) -> String {
     format!("round a part of {}", diameter(g, row))
 }
 
 /// Every reason why a part is not held, one a line.
-#[must_use]
 pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
     let all = reasons(row, load(g).map_or(0.0, |l| l.friction));
     let lines = all.map(|why| format!("  {} cannot be held: {why}\n", diameter(g, row)));
@@ -58,7 +56,6 @@ pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
 
 impl<'a> NotHeld<'a> {
     /// A part of a state that is not held, for one reason.
-    #[must_use]
     pub fn because(m: &'a Mechanism, state: StateId, why: &str) -> Self {
         NotHeld {
             mechanism: &m.name,
@@ -69,7 +66,6 @@ impl<'a> NotHeld<'a> {
     }
 
     /// Why no diameter of a grip, or not the one asked for, is held.
-    #[must_use]
     pub fn new(g: &'a Gripping) -> Self {
         let lost = g.study.rows.iter().filter(|r| !r.holds());
         NotHeld {
@@ -81,7 +77,6 @@ impl<'a> NotHeld<'a> {
     }
 
     /// The same for people.
-    #[must_use]
     pub fn text(&self) -> String {
         let mut out = format!(
             "{}, state {}: the part cannot be held, so no contact forces load the jaws\n",
@@ -135,7 +130,6 @@ impl Clamped<'_> {
 
     /// Returns the same for people, fitted to a terminal of `width` columns if one is given; `flat` is true if forces across the
     /// plane of motion are left out below.
-    #[must_use]
     pub fn text(&self, flat: bool, width: Option<u16>) -> String {
         let (g, mut out) = (self.grip, Report::new(width));
         if let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) {

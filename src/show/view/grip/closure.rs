@@ -131,7 +131,6 @@ impl ClosureData<'_> {
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let (m, part, g) = (self.mechanism, self.part, &self.part.geometry);
         let contact = |f: &JawFace| {
@@ -171,7 +170,6 @@ impl ClosureData<'_> {
     }
 
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
         let (m, part) = (self.mechanism, self.part);

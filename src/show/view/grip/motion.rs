@@ -30,13 +30,11 @@ fn word(s: &StepTaken) -> &'static str {
 
 impl GripMotion {
     /// Returns whether the part can be held at every step.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.steps.iter().all(|s| s.drive().is_some())
     }
 
     /// Returns it as data.
-    #[must_use]
     pub(super) fn json(&self) -> Value {
         let step = |s: &StepTaken| {
             let bound = match &s.verdict {
@@ -74,7 +72,6 @@ impl GripMotion {
     }
 
     /// Returns it for people, fitted to a terminal of `width` columns if one is given.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let (mut out, all) = (Report::new(width), self.steps.len());
         let (steps, verdict) = (plural(all, "step"), self.verdict());
@@ -112,7 +109,6 @@ impl GripMotion {
     }
 
     /// The moment, and the drive's effort where it is known, over the motion.
-    #[must_use]
     pub fn chart(&self, mechanism: &str) -> Chart {
         let timed = self.steps.iter().all(|s| s.of.time.is_some());
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]

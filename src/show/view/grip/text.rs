@@ -26,7 +26,6 @@ pub(super) fn number(x: Option<f64>) -> String {
 
 impl GripReport<'_> {
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
         let rows = &self.found.study.rows;

@@ -31,7 +31,6 @@ impl TypeChange {
     }
 
     /// What more freedoms make of one; none where it is no assembly, or has no such type.
-    #[must_use]
     pub fn at(
         m: &Mechanism,
         origin: &Origin,
@@ -50,7 +49,6 @@ impl TypeChange {
     }
 
     /// "Hinge: Revolute -> Ball".
-    #[must_use]
     pub fn words(&self) -> String {
         format!("{}: {} -> {}", self.joint, self.from, self.to)
     }

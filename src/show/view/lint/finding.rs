@@ -162,7 +162,6 @@ impl LintWords<'_> {
 }
 
 /// A release in words: "let a slide along y: revolute -> cylindrical".
-#[must_use]
 pub fn words(m: &Mechanism, release: &Release) -> String {
     match *release {
         Release::Coupling(q) => {
@@ -212,7 +211,6 @@ pub struct PassedOver {
 
 impl PassedOver {
     /// Why a file is passed over.
-    #[must_use]
     pub fn new(file: &str, why: &str, rigid: bool) -> PassedOver {
         let line = why.lines().next().unwrap_or_default();
         // The file stands in front of the line already: `FILE:3:7: why`, `FILE: why` or `FILE is no such thing`.
@@ -228,7 +226,6 @@ impl PassedOver {
     }
 
     /// A line for people.
-    #[must_use]
     pub fn text(&self) -> String {
         let (file, why) = (line(&self.file), line(&self.why));
         if self.rigid {

@@ -13,7 +13,6 @@ const LINES: usize = 10;
 impl ReactionsOverStroke<'_> {
     /// Returns the forces in the joints of output links and objects, and what each drive and coupling does, by position of the first
     /// drive. Returns `None` if no position has reactions.
-    #[must_use]
     pub fn chart(&self) -> Option<Chart> {
         let solved = self.solved().collect_vec();
         let lines = self.lines(&solved);

@@ -19,7 +19,6 @@ pub struct ReactionsOverStroke<'a> {
 
 impl<'a> ReactionsOverStroke<'a> {
     /// The reactions of a state.
-    #[must_use]
     pub fn new(of: &'a Mechanism, state: StateId, found: &'a Cycle) -> Self {
         ReactionsOverStroke { of, state, found }
     }
@@ -32,7 +31,6 @@ impl<'a> ReactionsOverStroke<'a> {
     }
 
     /// Returns all of it as data. Positions are since the pose of the file, `[rad]` or the file's unit.
-    #[must_use]
     pub fn json(&self) -> Value {
         let position = |(drive, s): &(f64, Result<_, _>)| match s {
             Ok(s) => {
@@ -51,7 +49,6 @@ impl<'a> ReactionsOverStroke<'a> {
     }
 
     /// Returns one joint and position a line.
-    #[must_use]
     pub fn csv(&self) -> String {
         let heads = [&["drive"], &HEADS[..]].concat();
         let solved = self.solved().collect_vec();
@@ -86,7 +83,6 @@ impl<'a> ReactionsOverStroke<'a> {
     }
 
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
         let all = self.solved().collect_vec();

@@ -33,7 +33,6 @@ fn stresses(n: usize) -> String {
 
 impl Reactions<'_> {
     /// Returns the report, fitted to a terminal of `width` columns if one is given; `pose` in words.
-    #[must_use]
     pub fn text(&self, pose: &str, width: Option<u16>) -> String {
         let (s, mut out) = (self.found, Report::new(width));
         self.write_head(&mut out, pose);

@@ -1,11 +1,12 @@
 //! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
 use crate::score::request::List;
+use crate::search::Search;
 use crate::search::check::second_prime::Verdict;
 use crate::search::question::throughout::PoseOnly;
 use crate::view::prelude::*;
-use crate::view::search::conditions::in_state;
 use crate::view::search::{numeric, second_opinion, stopped_early};
+use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
@@ -266,4 +267,33 @@ fn minimal(outcome: &Outcome) -> Option<String> {
     Some(format!(
         "{all} minimal; the other {rest} only add {idle} to one of these"
     ))
+}
+
+/// "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
+pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
+    let Some(s) = search.conditions.state else {
+        return Vec::new();
+    };
+    let m = &search.mechanism;
+    let (hold, have) = if one {
+        ("holds", "has")
+    } else {
+        ("hold", "have")
+    };
+    let state = format!("in state {}", m.states[s.state]);
+    let held = search.held().map(|l| m.links[l].id.as_str()).join(", ");
+    let limits = [
+        s.max_external.map(|n| format!("external σ ≤ {n}")),
+        s.max_harmful.map(|n| format!("harmful ≤ {n}")),
+    ];
+    let limits = limits.into_iter().flatten().join(", ");
+    match (held.is_empty(), limits.is_empty()) {
+        (true, true) => vec![format!("{have} any external σ {state}")],
+        (true, false) => vec![format!("{have} {limits} {state}")],
+        (false, true) => vec![format!("{hold} {held} {state}")],
+        (false, false) => vec![
+            format!("{hold} {held} {state}"),
+            format!("{have} {limits} in it"),
+        ],
+    }
 }

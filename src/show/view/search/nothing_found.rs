@@ -7,7 +7,6 @@ use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, flags};
 
 /// Returns why no variant can be found, a sentence for each reason; empty if some may be.
-#[must_use]
 pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     let named = |joints: &[JointId]| {
         let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
@@ -43,7 +42,6 @@ pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
 }
 
 /// Returns the requests that find something if one found nothing, each with its result in words.
-#[must_use]
 pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
     let gives = |how, n: &_| {
         let n = plural_of(&grouped(n), "variant");
@@ -74,7 +72,6 @@ pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
 }
 
 /// Returns the same as commands, with a hint at more options if no joint types are named.
-#[must_use]
 pub fn wider_commands(
     outcome: &Outcome,
     remarks: &Remarks,

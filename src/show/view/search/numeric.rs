@@ -8,7 +8,6 @@ use num_traits::Zero;
 use std::collections::BTreeSet;
 
 /// "12", or "12 to 15".
-#[must_use]
 pub(crate) fn from_to(bracket: &Bracket) -> String {
     let from = &bracket.sure.total;
     if bracket.is_narrow() {
@@ -18,7 +17,6 @@ pub(crate) fn from_to(bracket: &Bracket) -> String {
 }
 
 /// How many admissible variants there are: "12", or "12 to 15".
-#[must_use]
 pub(crate) fn admissible(outcome: &Outcome) -> String {
     match &outcome.numeric {
         Some(found) => from_to(&found.admissible),
@@ -27,7 +25,6 @@ pub(crate) fn admissible(outcome: &Outcome) -> String {
 }
 
 /// The counts by mobility as a person reads them: "12", or "12 to 15".
-#[must_use]
 pub(crate) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
@@ -42,7 +39,6 @@ pub(crate) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
 }
 
 /// What is said of a search by singular values, a sentence a line; none of an exact one.
-#[must_use]
 pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let Some(found) = &outcome.numeric else {
         return Vec::new();

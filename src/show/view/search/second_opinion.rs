@@ -53,7 +53,6 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
 }
 
 /// Why counts are not exact though everything was looked at, a sentence a line; nothing where they are.
-#[must_use]
 pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     let read = with_assumptions(&outcome.search.mechanism);
     let mut out: Vec<String> = read
@@ -101,7 +100,6 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
 }
 
 /// What the second opinion is, a sentence a line; nothing where none was needed.
-#[must_use]
 pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let mut out = against(outcome);
     if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {

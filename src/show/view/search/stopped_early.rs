@@ -7,7 +7,6 @@ use crate::view::prelude::*;
 use num_bigint::BigUint;
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
-#[must_use]
 pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
     let why = match outcome.stop {
         Stop::Exhausted => return None,
@@ -24,7 +23,6 @@ pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
 
 /// A number of variants as it is told: itself where it is exact, else at least that many, and at most how many and about how many where
 /// that is known.
-#[must_use]
 pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
     let own = grouped(counted);
     match estimate {
@@ -39,7 +37,6 @@ pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>
 }
 
 /// How numbers of variants are known that are not counted.
-#[must_use]
 pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
     let said = |e: &Estimate, what| {
@@ -63,7 +60,6 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
 }
 
 /// What a larger bound would cost, where one ended the search: nodes take time and memory in proportion.
-#[must_use]
 pub(crate) fn more(outcome: &Outcome) -> Option<String> {
     match outcome.stop {
         Stop::NodeBudget => {
@@ -80,7 +76,6 @@ pub(crate) fn more(outcome: &Outcome) -> Option<String> {
 }
 
 /// How much of a list by cost is proven, though the search ended early.
-#[must_use]
 pub(crate) fn proven(summary: &Summary) -> Option<String> {
     match summary.proven? {
         0 => None,

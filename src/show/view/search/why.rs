@@ -172,7 +172,6 @@ pub(crate) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
 }
 
 /// What is said of each of some ideas, line by line: of what, and that.
-#[must_use]
 pub(crate) fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
     let whys = Whys::new(outcome);
     let (teller, mut why) = (Teller::new(outcome, &whys), whys.teller());

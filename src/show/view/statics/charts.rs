@@ -65,7 +65,6 @@ fn scale(series: &mut [Series]) -> &'static str {
 }
 
 /// Returns the reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
-#[must_use]
 pub fn cycle(s: &StaticsData<'_>) -> Vec<Named> {
     let Some(&shown) = s.methods.last() else {
         return Vec::new();
@@ -308,7 +307,6 @@ fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
 }
 
 /// Errors of the methods against the distance from a failure.
-#[must_use]
 pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
     // What is exact to the last bit is shown at the foot.
     let shown = |x: f64| {
@@ -352,7 +350,6 @@ pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
 }
 
 /// Rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
-#[must_use]
 pub fn stability_rows(failure: Failure, samples: &[DistanceErrors]) -> Vec<Vec<String>> {
     let at = |decade: i32| {
         let wanted = 10f64.powi(-decade);

@@ -11,7 +11,6 @@ const HEADS: &str = "drive,method,joint,from,on,x_m,y_m,fx_N,fy_N,moment_Nm,effo
 
 /// Returns a line for each drive position, method and joint: every joint by the equilibrium, those of the four-link groups by the
 /// other methods too. The force is that on `on`; for sliding joints the moment is about (x, y).
-#[must_use]
 pub fn csv(s: &StaticsData<'_>) -> String {
     let m = s.planar();
     let mut rows = Vec::new();

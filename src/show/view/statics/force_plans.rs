@@ -11,7 +11,6 @@ use crate::view::prelude::*;
 use crate::view::statics::{StaticsData, size};
 
 /// The drawing of each group, with the name of its file.
-#[must_use]
 pub fn plans(s: &StaticsData<'_>) -> Vec<(String, Polygons)> {
     let groups = 0..s.found.contour_groups.len();
     groups.filter_map(|i| plan(s, i)).collect()

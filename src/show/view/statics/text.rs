@@ -20,7 +20,6 @@ const SINGULAR: f64 = 1e12;
 
 impl Structures<'_> {
     /// Returns the structure under every drive.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let m = self.planar;
         let group = |(g, condition): (&Group, &f64)| {
@@ -57,7 +56,6 @@ impl Structures<'_> {
 
 impl StaticsData<'_> {
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let mut out = Report::new(width);
         let (s, d) = (self.found, &self.found.decomposition);

@@ -60,7 +60,6 @@ impl<'a> ToldReactions<'a> {
 
 impl<'a> ToldStatics<'a> {
     /// The reactions of a state over a stroke, or in the pose of the file; the four-link groups by `methods`.
-    #[must_use]
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
@@ -82,7 +81,6 @@ impl<'a> ToldStatics<'a> {
     }
 
     /// The reactions round the part of a row.
-    #[must_use]
     pub fn round_a_part(
         g: &'a Gripping,
         row: &'a DiameterRow,
@@ -101,7 +99,6 @@ impl<'a> ToldStatics<'a> {
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let mut out = match &self.reactions {
             ToldReactions::Planar(s) => s.json(),
@@ -118,7 +115,6 @@ impl<'a> ToldStatics<'a> {
     }
 
     /// Returns the reactions as CSV, in SI units.
-    #[must_use]
     pub fn csv(&self) -> String {
         match &self.reactions {
             ToldReactions::Planar(s) => csv(s),
@@ -128,7 +124,6 @@ impl<'a> ToldStatics<'a> {
     }
 
     /// Returns the report, fitted to a terminal of `width` columns if one is given.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let flat = matches!(self.reactions, ToldReactions::Planar(_));
         let grip = self.grip.as_ref().map(|g| g.text(flat, width));

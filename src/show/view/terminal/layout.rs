@@ -36,7 +36,6 @@ impl Report {
 }
 
 /// Returns a row of a table.
-#[must_use]
 pub fn cells<const N: usize>(of: [&dyn Display; N]) -> Vec<String> {
     of.iter().map(ToString::to_string).collect()
 }
@@ -44,7 +43,6 @@ pub fn cells<const N: usize>(of: [&dyn Display; N]) -> Vec<String> {
 /// Returns a plain table; its heads are separated by ` | `. If the output is a terminal of `width` columns, columns of words are
 /// wrapped, and numbers and names only if one takes more than half of the width. A table that is still too wide is given in parts, one
 /// below the other, each with the first column.
-#[must_use]
 pub fn table(
     heads: &str,
     rows: impl IntoIterator<Item = Vec<String>>,
@@ -55,7 +53,6 @@ pub fn table(
 }
 
 /// Returns the same with heads that may hold any text.
-#[must_use]
 pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return render(header, rows, None);
@@ -159,7 +156,6 @@ fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
 }
 
 /// A text with the lines that are too long broken between words, the rest of them set in by two more.
-#[must_use]
 pub fn fit(text: &str, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return text.to_owned();

@@ -16,7 +16,6 @@ pub struct NextCommand {
 
 impl NextCommand {
     /// The command that mends a robot description in the owner's own file.
-    #[must_use]
     pub fn mend(file: &str, more: &str, gives: &str) -> NextCommand {
         let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
         let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
@@ -24,7 +23,6 @@ impl NextCommand {
     }
 
     /// A command of this program about a file.
-    #[must_use]
     pub fn new(command: &str, file: &str, more: &str, gives: &str) -> NextCommand {
         let more = if more.is_empty() {
             String::new()
@@ -40,7 +38,6 @@ impl NextCommand {
 
 /// The steps as the end of a report, fitted to a terminal of `width` columns but for the commands: a command broken in two
 /// could not be copied. Nothing where there are none.
-#[must_use]
 pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
     if steps.is_empty() {
         return String::new();
@@ -56,7 +53,6 @@ pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
 }
 
 /// The flags that make a search's list what it is, as they are typed: those of `search`, `draw` and `export` are the same.
-#[must_use]
 pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     let joints = |rule: &JointOptions| match rule.names.as_slice() {
         [] => rule.joint.clone(),
@@ -122,7 +118,6 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
 }
 
 /// A word as a shell takes it; standard input cannot be read again, so it is FILE.
-#[must_use]
 pub fn word(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     match text {
@@ -133,13 +128,11 @@ pub fn word(text: &str) -> String {
 }
 
 /// A file name made of a mechanism's name.
-#[must_use]
 pub fn file_name(name: &str, ending: &str) -> String {
     word(&format!("{}.{ending}", stem(name)))
 }
 
 /// The same without its ending, as it is.
-#[must_use]
 pub fn stem(name: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let stem: String = name
