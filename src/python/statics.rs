@@ -31,7 +31,7 @@ pub(crate) fn statics(
             Err(e) => Err(failed(e)),
             Ok(Some(g)) if stroke.is_none() => round_a_part(&g, spatial),
             Ok(Some(_)) => Err(failed(
-                "--stroke needs a motion, and the levers stand still round the part",
+                "stroke needs a motion, and the levers stand still round the part",
             )),
             Ok(None) => reactions_of(m, state, stroke, (spatial, unilateral)),
         }

@@ -80,8 +80,9 @@ fn trial_head(t: &Trial) -> String {
             grouped(admissible)
         ),
         None => format!(
-            "{}: {space} variants; the truth needs more --nodes, so that no counts are compared\n",
-            t.mechanism
+            "{}: {space} variants; the truth needs more {}, so that no counts are compared\n",
+            t.mechanism,
+            flag("nodes", "")
         ),
     }
 }

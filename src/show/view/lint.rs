@@ -235,8 +235,8 @@ impl Lint {
             .collect();
         if let more @ 1.. = notes().count().saturating_sub(NOTES) {
             out += &format!(
-                "  note: {more} more of the kind, which `ozols export --to toml` tells
-"
+                "  note: {more} more of the kind, which `ozols export {}` tells\n",
+                flag("to", "toml")
             );
         }
         out

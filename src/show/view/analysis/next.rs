@@ -51,12 +51,12 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
             let state = if n == StateId::new(1) {
                 String::new()
             } else {
-                format!(" --state {}", word(&s.found.state))
+                format!(" {}", flag("state", word(&s.found.state)))
             };
             Some(NextCommand::new(
                 "search",
                 file,
-                &format!("--max-external {left}{state}"),
+                &(flag("max-external", left) + &state),
                 &format!("redesigns that leave at most {left} of the {of} external, too"),
             ))
         }
@@ -66,7 +66,10 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
                 s.found.state,
                 USUAL_UNLOADING.name()
             ),
-            gives: "so that `ozols search` may insert it; --max-external N asks for it".to_owned(),
+            gives: format!(
+                "so that `ozols search` may insert it; {} asks for it",
+                flag("max-external", "N")
+            ),
         }),
         (true, _) => None,
     }

@@ -162,7 +162,7 @@ pub(super) fn text(
     }
     let rest = match groups.len().saturating_sub(ROWS) {
         0 => String::new(),
-        n => format!("\n  and {n} more; --format json lists them"),
+        n => format!("\n  and {n} more; {} lists them", flag("format", "json")),
     };
     let rows = groups.iter().take(ROWS);
     let rows = rows.map(|((what, removes, milli), joints)| {

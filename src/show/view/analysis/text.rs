@@ -51,8 +51,8 @@ impl State<'_> {
         let shown = motions.iter().take(MOTIONS);
         let shown = shown.map(|of| format!("motion of {}", link_motions::line(m, of)));
         let more = motions.len().saturating_sub(MOTIONS);
-        let more =
-            (more > 0).then(|| format!("and of {more} more outputs (--format json has all)"));
+        let json = flag("format", "json");
+        let more = (more > 0).then(|| format!("and of {more} more outputs ({json} has all)"));
         let idle = self
             .idle_motions()
             .into_iter()

@@ -243,7 +243,8 @@ fn neighbours_text(all: &[Neighbour]) -> String {
         out += &format!("  {}, {}, {relation}: {better}\n", n.id, n.form);
     }
     if useful.len() > NAMED {
-        out += &format!("  and {} more, which --json has\n", useful.len() - NAMED);
+        let json = flag("json", "");
+        out += &format!("  and {} more, which {json} has\n", useful.len() - NAMED);
     }
     out
 }

@@ -212,10 +212,12 @@ fn feed_pieces(all: &[(f64, f64)]) -> String {
     let pieces = all.iter().take(PIECES).map(piece).join(", ");
     match all.len().saturating_sub(PIECES) {
         0 => format!("  the cam pushes with {pieces}, up to the latch"),
-        more => format!(
-            "  the cam pushes with {pieces} and {} more, up to the latch; --format json has them all",
-            plural(more, "piece")
-        ),
+        more => {
+            let (more, json) = (plural(more, "piece"), flag("format", "json"));
+            format!(
+                "  the cam pushes with {pieces} and {more} more, up to the latch; {json} has them all"
+            )
+        }
     }
 }
 
@@ -252,7 +254,10 @@ fn write_electromagnet(out: &mut Report, d: &Drive<'_>, cam: &CamDesign) {
     ));
     let (Some(p), Some((_, roller))) = (&cam.profile, d.file.spec.cam.and_then(|c| c.profile))
     else {
-        return out.line("    give cam_radius and roller_radius, and --svg writes the cam's profile as SVG, CSV and DXF");
+        let svg = flag("svg", "");
+        return out.line(format!(
+            "    give cam_radius and roller_radius, and {svg} writes the cam's profile as SVG, CSV and DXF"
+        ));
     };
     let (grooves, angle) = (p.grooves.len(), degrees(p.pressure_angle));
     let one_way = if p.both_ways {
@@ -261,8 +266,9 @@ fn write_electromagnet(out: &mut Report, d: &Drive<'_>, cam: &CamDesign) {
         "; its flank begins before the middle and feeds swings one way only"
     };
     out.line(format!(
-        "  cam profile: {}, pressure angle up to {angle}{one_way}; --svg writes it as SVG, CSV and DXF",
-        plural(grooves, "groove")
+        "  cam profile: {}, pressure angle up to {angle}{one_way}; {} writes it as SVG, CSV and DXF",
+        plural(grooves, "groove"),
+        flag("svg", "")
     ));
     if roller > p.least_curvature {
         let radius = length(d, p.least_curvature);
@@ -295,7 +301,8 @@ fn write_motions(out: &mut Report, d: &Drive<'_>, design: &Design) {
         if let (Some(a), Some(p)) = (m.acceleration, spec.payload) {
             let (radius, shown) = (length(d, p.radius), significant(a));
             out.line(format!(
-                "    at {radius} from the axis {shown} m/s²; a grip there must hold: ozols grip FILE --any-acceleration {a:.3}"
+                "    at {radius} from the axis {shown} m/s²; a grip there must hold: ozols grip FILE {}",
+                flag("any-acceleration", format_args!("{a:.3}"))
             ));
         }
     }
@@ -313,8 +320,8 @@ fn write_programme(out: &mut Report, d: &Drive<'_>) {
     let heads = "start, s | time, s | step | fed, J | lost, J | stored, J | end";
     out.table(heads, rows);
     if let more @ 1.. = steps.len().saturating_sub(SHOWN) {
-        let more = plural(more, "step");
-        out.line(format!("  and {more} more; --format json has them all"));
+        let (more, json) = (plural(more, "step"), flag("format", "json"));
+        out.line(format!("  and {more} more; {json} has them all"));
     }
 }
 

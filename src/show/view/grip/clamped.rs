@@ -174,7 +174,10 @@ impl Clamped<'_> {
         out.line("");
         let mut each = contacts.iter();
         if flat && each.any(|(.., f)| f.axial.abs() > 1e-6 * f.normal) {
-            out.line("Forces along the part are across the plane of motion and omitted below; --spatial includes them.\n");
+            let spatial = flag("spatial", "");
+            out.line(format!(
+                "Forces along the part are across the plane of motion and omitted below; {spatial} includes them.\n"
+            ));
         }
     }
 }

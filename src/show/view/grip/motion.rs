@@ -103,7 +103,8 @@ impl GripMotion {
         out.table(&heads, rows);
         if let left @ 1.. = all.saturating_sub(SHOWN) {
             let left = plural(left, "step");
-            out.line(format!("\n  and {left} more; --format json has them all"));
+            let json = flag("format", "json");
+            out.line(format!("\n  and {left} more; {json} has them all"));
         }
         out.text()
     }

@@ -5,7 +5,7 @@ use crate::statics::reactions::drives::slides;
 use crate::statics::reactions::{Cycle, JointReaction, NEARLY_SINGULAR};
 use crate::view::prelude::*;
 use crate::view::reactions::couplings::{unit, write_greatest};
-use crate::view::reactions::text::ADD_LOADS;
+use crate::view::reactions::text::{ADD_LOADS, pushing};
 use crate::view::reactions::{HEADS, Reactions, holds, touch};
 
 /// Reactions by position of the first drive.
@@ -104,8 +104,9 @@ impl<'a> ReactionsOverStroke<'a> {
         }
         if let Some(place) = self.found.stopped {
             out.line(format!(
-                "The stroke could not be followed to {}; `ozols analyze --stroke` says why",
-                self.place(place)
+                "The stroke could not be followed to {}; `ozols analyze {}` says why",
+                self.place(place),
+                flag("stroke", "")
             ));
         }
         out.text()
@@ -178,11 +179,12 @@ impl<'a> ReactionsOverStroke<'a> {
             let bad = touches.filter(|(_, c)| !holds(c)).collect_vec();
             if let Some((from, c)) = bad.first() {
                 out.line(format!(
-                    "NOT AS CONTACTS ACT: {} in {}, first at {}, where it {}; --unilateral solves with contacts that only push",
+                    "NOT AS CONTACTS ACT: {} in {}, first at {}, where it {}; {}",
                     first.joint(contact.joint),
                     plural(bad.len(), "pose"),
                     self.place(*from),
-                    touch(c)
+                    touch(c),
+                    pushing()
                 ));
             }
         }

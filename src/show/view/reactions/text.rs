@@ -22,6 +22,14 @@ pub(crate) fn no_loads(misalignments: usize) -> String {
     format!("The file states no loads{only}: {ADD_LOADS}.")
 }
 
+/// Returns the remedy for contacts that would pull.
+pub(super) fn pushing() -> String {
+    format!(
+        "{} solves with contacts that only push",
+        flag("unilateral", "")
+    )
+}
+
 /// Maximum number of self-stresses in a text.
 const STRESSES: usize = 12;
 
@@ -150,9 +158,9 @@ impl Reactions<'_> {
         }
         if !bad.is_empty() {
             let way = if self.is_unique() {
-                "no other reactions are in equilibrium, so the object is not held"
+                "no other reactions are in equilibrium, so the object is not held".to_owned()
             } else {
-                "--unilateral solves with contacts that only push"
+                pushing()
             };
             out.line(format!("  contacts are taken as joints here; {way}"));
         }

@@ -154,8 +154,9 @@ fn in_the_pose(outcome: &Outcome) -> Option<String> {
             let lost = here - &lasting.total;
             let lose = if lost.is_one() { "loses" } else { "lose" };
             let (here, lost) = (grouped(here), grouped(lost));
+            let all = flag("pose-only", "");
             Some(format!(
-                "{here} in the drawn pose; {lost} of these {lose} the motion in other poses (--pose-only lists them too)"
+                "{here} in the drawn pose; {lost} of these {lose} the motion in other poses ({all} lists them too)"
             ))
         }
         Err(

@@ -88,7 +88,11 @@ pub fn wider_commands(
         .any(|(how, _)| *how == Relaxation::PoseOnly);
     let hint = (!in_pose && remarks.offered.is_none()).then(|| NextCommand {
         command: "Offer more options under [search], or at the joints".to_owned(),
-        gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
+        gives: format!(
+            "the search chooses from those in the file, and from joint types named in {} and {}",
+            flag("options", ""),
+            flag("allow", "")
+        ),
     });
     steps.chain(hint).collect()
 }

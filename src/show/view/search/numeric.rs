@@ -81,9 +81,9 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
         )
     };
     let mut out = vec![format!(
-        "Estimated from {} variants drawn at random (--seed {}), with 95 % confidence: {}, {}",
+        "Estimated from {} variants drawn at random ({}), with 95 % confidence: {}, {}",
         grouped(s.drawn),
-        s.seed,
+        flag("seed", s.seed),
         said(s.admissible, "admissible"),
         said(s.determinate, "determinate")
     )];

@@ -88,7 +88,8 @@ pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         ));
     }
     if !p.proven {
-        out.push(format!("--pool widens the view (now {})", n(p.pool)));
+        let pool = flag("pool", "");
+        out.push(format!("{pool} widens the view (now {})", n(p.pool)));
     }
     if p.ranking
         .terms

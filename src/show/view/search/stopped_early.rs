@@ -10,7 +10,7 @@ use num_bigint::BigUint;
 pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
     let why = match outcome.stop {
         Stop::Exhausted => return None,
-        Stop::NotCounted => "Not counted (--no-count)".to_owned(),
+        Stop::NotCounted => format!("Not counted ({})", flag("no-count", "")),
         stop => format!("Stopped early ({})", stop.word()),
     };
     // What is proven of a list is told after it.
@@ -53,9 +53,9 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     let how = admissible.or(determinate)?;
     let parts: Vec<String> = first.into_iter().chain(second).collect();
     Some(format!(
-        "Estimated, not counted, with 95 % confidence: {} (--seed {})",
+        "Estimated, not counted, with 95 % confidence: {} ({})",
         parts.join(", "),
-        how.seed
+        flag("seed", how.seed)
     ))
 }
 
@@ -63,14 +63,15 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
 pub(crate) fn more(outcome: &Outcome) -> Option<String> {
     match outcome.stop {
         Stop::NodeBudget => {
-            let nodes = outcome.request.nodes.saturating_mul(10);
+            let nodes = flag("nodes", outcome.request.nodes.saturating_mul(10));
             Some(format!(
-                "With --nodes {nodes} more is counted, in about ten times the time and memory"
+                "With {nodes} more is counted, in about ten times the time and memory"
             ))
         }
-        Stop::Memory => Some(
-            "More is counted where there is more memory (--memory), not with more nodes".to_owned(),
-        ),
+        Stop::Memory => Some(format!(
+            "More is counted where there is more memory ({}), not with more nodes",
+            flag("memory", "")
+        )),
         Stop::Exhausted | Stop::Interrupted | Stop::NotCounted => None,
     }
 }

@@ -199,35 +199,31 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
 fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> Vec<NextCommand> {
     let flags = &flags(outcome);
     let number = outcome.request.one();
+    let one = &flag(number, 1);
     let joined = |more: &str| format!("{flags} {more}").trim().to_owned();
     let mechanism = &outcome.search.mechanism.name;
     let svg = file_name(&format!("{mechanism}-{number}-1"), "svg");
     let toml = file_name(&format!("{mechanism}-{number}-1"), "toml");
     // Whose first variant changes nothing has nothing to mend.
-    let own = (changed && is_description(file)).then(|| {
-        NextCommand::mend(
-            file,
-            &joined(&format!("--{number} 1")),
-            "the first of the list in your own file",
-        )
-    });
+    let own = (changed && is_description(file))
+        .then(|| NextCommand::mend(file, &joined(one), "the first of the list in your own file"));
     let steps = [
         NextCommand::new(
             "draw",
             file,
-            &joined(&format!("--{number} 1 -o {svg}")),
+            &joined(&format!("{one} -o {svg}")),
             "the first of the list, its changes in colour",
         ),
         NextCommand::new(
             "export",
             file,
-            &joined(&format!("--{number} 1 --to toml -o {toml}")),
+            &joined(&format!("{one} {} -o {toml}", flag("to", "toml"))),
             "the first of the list as a separate mechanism file",
         ),
     ];
     let more = (!verbose).then(|| {
         let gives = "counts by mobility, and what each of the first three does";
-        NextCommand::new("search", file, &joined("--verbose"), gives)
+        NextCommand::new("search", file, &joined(&flag("verbose", "")), gives)
     });
     own.into_iter().chain(steps).chain(more).collect()
 }
@@ -249,7 +245,7 @@ fn next_of_none(outcome: &Outcome, remarks: &Remarks, file: &str) -> Vec<NextCom
     vec![NextCommand::new(
         "search",
         file,
-        format!("{} --top 10", flags(outcome)).trim(),
+        format!("{} {}", flags(outcome), flag("top", 10)).trim(),
         "the cheapest of them",
     )]
 }

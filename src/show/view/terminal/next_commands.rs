@@ -4,6 +4,7 @@ use crate::score::request::{JointOptions, List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::search::question::kept::Drives;
 use crate::view::prelude::*;
+use std::fmt::Display;
 
 /// A command and what it gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -107,14 +108,14 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         ("as-written", r.as_written),
     ];
     valued
-        .filter_map(|(flag, value)| Some(format!("--{flag} {}", word(&value?))))
-        .chain(
-            switches
-                .iter()
-                .filter(|(_, on)| *on)
-                .map(|(flag, _)| format!("--{flag}")),
-        )
+        .filter_map(|(option, value)| Some(flag(option, word(&value?))))
+        .chain(switches.iter().filter(|s| s.1).map(|s| flag(s.0, "")))
         .join(" ")
+}
+
+/// Returns an option as it is typed, with its value if it has one: everything else names options by their fields.
+pub(crate) fn flag(option: &str, value: impl Display) -> String {
+    format!("--{option} {value}").trim_end().to_owned()
 }
 
 /// A word as a shell takes it; standard input cannot be read again, so it is FILE.
