@@ -6,7 +6,6 @@ pub(crate) mod bench;
 pub(crate) mod catalog;
 pub(crate) mod check;
 pub(crate) mod clamped;
-pub(crate) mod completions;
 pub(crate) mod draw;
 pub(crate) mod drive;
 pub(crate) mod explain;
@@ -94,5 +93,5 @@ pub(crate) enum Command {
     Explain(explain::Explain),
     /// Print a script that completes commands and options in a shell.
     #[command(after_help = examples::COMPLETIONS)]
-    Completions(completions::Completions),
+    Completions(check::Completions),
 }

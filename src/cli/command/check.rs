@@ -1,4 +1,4 @@
-//! `ozols check`, `show` and `schema`.
+//! `ozols check`, `show`, `schema` and `completions`.
 
 use crate::builtin;
 use crate::cli::prelude::*;
@@ -156,4 +156,18 @@ pub(crate) fn show(a: &Show) -> anyhow::Result<Done> {
 
 pub(crate) fn schema() -> anyhow::Result<Done> {
     output::put(None, format!("{:#}\n", crate::file::schema::json_schema()))
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Completions {
+    /// Shell to complete for.
+    #[arg(value_enum, value_name = "SHELL")]
+    shell: clap_complete::Shell,
+}
+
+pub(crate) fn completions(a: &Completions, mut program: clap::Command) -> anyhow::Result<Done> {
+    // The generator panics where it cannot write, so it writes to memory.
+    let mut script = Vec::new();
+    clap_complete::generate(a.shell, &mut program, "ozols", &mut script);
+    output::put(None, script)
 }

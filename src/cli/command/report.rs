@@ -108,32 +108,27 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>, remarks: Remarks) 
 fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let file = a.file.typed();
     let more = list_options(mechanism, a, request);
-    let row = |what: &str, command: String| (what.to_owned(), command);
-    let named = |ending: &str| file_name(&mechanism.name, ending);
+    let [sdf, svg] = ["sdf", "svg"].map(|ending| file_name(&mechanism.name, ending));
     let longer = joined(&[&flags(mechanism, request), "{}", "--top 10000"]);
+    let rows = [
+        ("This page", format!("report {file} {more} -o report.html")),
+        ("Original mechanism", format!("analyze {file}")),
+        (
+            "The variants, as text or data",
+            format!("search {file} {more} --format text|json|csv"),
+        ),
+        (
+            "The mechanism for other programs",
+            format!("export {file} --to sdf -o {sdf}"),
+        ),
+        (
+            "A drawing",
+            format!("draw {file} --kind scheme|kinematic -o {svg}"),
+        ),
+    ];
+    let rows = rows.map(|(what, command)| (what.to_owned(), format!("ozols {command}")));
     Commands {
-        rows: vec![
-            row(
-                "This page",
-                format!("ozols report {file} {more} -o report.html"),
-            ),
-            row("Original mechanism", format!("ozols analyze {file}")),
-            row(
-                "The variants, as text or data",
-                format!("ozols search {file} {more} --format text|json|csv"),
-            ),
-            row(
-                "The mechanism for other programs",
-                format!("ozols export {file} --to sdf -o {}", named("sdf")),
-            ),
-            row(
-                "A drawing",
-                format!(
-                    "ozols draw {file} --kind scheme|kinematic -o {}",
-                    named("svg")
-                ),
-            ),
-        ],
+        rows: rows.to_vec(),
         variant: of_one(mechanism, &file, request, "variant"),
         idea: of_one(mechanism, &file, request, "idea"),
         longer: format!("ozols report {file} {longer} -o report.html"),

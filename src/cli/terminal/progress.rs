@@ -103,45 +103,36 @@ impl Bar {
 
     /// Shows how far a diagram has come: layer, nodes, and an estimate.
     fn show(&mut self, p: Progress) {
-        if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
-            return;
-        }
-        let bar = self.bar.get_or_insert_with(|| {
-            let bar =
-                ProgressBar::with_draw_target(Some(p.of as u64), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template(
-                "{elapsed_precise} [{bar:30}] {prefix} {pos}/{len} {msg} (about {eta} left)",
-            );
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar
-        });
         let (what, done, of) = match p.meeting {
-            None => ("joint", p.done, p.of),
-            Some(m) => ("meeting", m.done, m.of),
+            None => ("joint ", p.done, p.of),
+            Some(m) => ("meeting ", m.done, m.of),
         };
-        bar.set_prefix(what);
-        bar.set_length(of as u64);
-        bar.set_position(done as u64);
-        bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
+        let message = format!("{} nodes, {} in this layer", p.nodes, p.layer);
+        self.set(what, done, of, message);
     }
 
     /// Shows how far a run of known length has come.
     pub(crate) fn step(&mut self, what: &str, done: usize, of: usize) {
         spinner::rest();
+        self.set("", done, of, what.to_owned());
+    }
+
+    fn set(&mut self, prefix: &'static str, done: usize, of: usize, message: String) {
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }
         let bar = self.bar.get_or_insert_with(|| {
             let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
             let style = ProgressStyle::with_template(
-                "{elapsed_precise} [{bar:30}] {pos}/{len} {msg} (about {eta} left)",
+                "{elapsed_precise} [{bar:30}] {prefix}{pos}/{len} {msg} (about {eta} left)",
             );
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
+        bar.set_prefix(prefix);
         bar.set_length(of as u64);
         bar.set_position(done as u64);
-        bar.set_message(what.to_owned());
+        bar.set_message(message);
     }
 
     pub(crate) fn clear(&mut self) {
