@@ -80,26 +80,26 @@ impl Draw {
 /// Parses a side as a direction towards the reader.
 fn side(text: &str) -> Result<[f64; 3], String> {
     match text.trim() {
-        "x" => Ok([1.0, 0.0, 0.0]),
         // x to the right and z up
         "y" => Ok([0.0, -1.0, 0.0]),
-        "z" => Ok([0.0, 0.0, 1.0]),
         "iso" => Ok([1.0, 1.0, 1.0]),
-        _ => numbers(text).ok_or_else(|| {
-            "give x, y, z, iso, or three numbers that are not all zero, such as \"1,-2,0.5\""
-                .to_owned()
-        }),
+        _ => direction(text, "x, y, z, iso", "1,-2,0.5"),
     }
 }
 
 /// Parses the direction that points up.
 fn axis(text: &str) -> Result<[f64; 3], String> {
+    direction(text, "x, y, z", "0,1,1")
+}
+
+/// Parses a direction as an axis or three numbers; an error names other words and an example.
+fn direction(text: &str, words: &str, example: &str) -> Result<[f64; 3], String> {
     match text.trim() {
         "x" => Ok([1.0, 0.0, 0.0]),
         "y" => Ok([0.0, 1.0, 0.0]),
         "z" => Ok([0.0, 0.0, 1.0]),
         _ => numbers(text).ok_or_else(|| {
-            "give x, y, z, or three numbers that are not all zero, such as \"0,1,1\"".to_owned()
+            format!("give {words}, or three numbers that are not all zero, such as \"{example}\"")
         }),
     }
 }

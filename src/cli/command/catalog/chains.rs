@@ -7,13 +7,12 @@ use crate::chains::enumerate::{ChainsError, chains, count_chains};
 use crate::chains::sharing::Menu;
 use crate::chains::symmetric_census::symmetric_census;
 use crate::cli::prelude::*;
-use crate::format::csv::records;
 use crate::view::catalog::counts::{
-    ChainData, chains_text, hinged_row, hinged_text, pair_rows, pair_text, symmetric_rows,
-    symmetric_text,
+    CountRow, chain_row, chains_text, hinged_row, hinged_text, pair_rows, pair_text,
+    symmetric_rows, symmetric_text,
 };
+use crate::view::catalog::query::QueryAnswer;
 use rayon::prelude::*;
-use serde::Serialize;
 use std::ops::RangeInclusive;
 
 #[derive(Debug, ClapArgs)]
@@ -105,15 +104,15 @@ struct Listing {
 
 impl Listing {
     /// Writes what was found, one row each, or as `text` for a terminal of some width.
-    fn give<T: Serialize>(
+    fn give(
         &self,
-        all: &[T],
-        text: impl Fn(&[T], Option<u16>) -> String,
+        all: &[CountRow],
+        text: impl Fn(&[CountRow], Option<u16>) -> String,
     ) -> anyhow::Result<Done> {
         self.to.put(match self.format {
             TextJsonOrCsv::Text => text(all, self.to.width()),
             TextJsonOrCsv::Json => output::json(&all)?,
-            TextJsonOrCsv::Csv => records(all),
+            TextJsonOrCsv::Csv => QueryAnswer::of(all).csv(),
         })
     }
 }
@@ -201,6 +200,6 @@ pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
         a.links
     );
     let found = chains(a.links, a.listing.mobility)?;
-    let all: Vec<ChainData> = found.par_iter().map(ChainData::new).collect();
+    let all: Vec<CountRow> = found.par_iter().map(chain_row).collect();
     a.listing.give(&all, chains_text)
 }

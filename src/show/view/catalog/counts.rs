@@ -5,47 +5,20 @@ use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
 use crate::chains::symmetric_census::SymmetricKind;
+use crate::view::catalog::query::{bare, cell};
 use crate::view::prelude::*;
 use itertools::iproduct;
-use serde::Serializer;
-use serde::ser::SerializeStruct;
+use serde_json::Map;
 use std::collections::BTreeMap;
 
-/// A cell of a row.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[serde(untagged)]
-enum CountCell {
-    Number(Option<u64>),
-    Word(&'static str),
-}
-
 /// A row of counts: the keys are a stable contract, in their order.
-#[derive(Debug, Clone)]
-pub struct CountRow(Vec<(&'static str, CountCell)>);
+pub type CountRow = Map<String, Value>;
 
-impl Serialize for CountRow {
-    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-        let mut row = s.serialize_struct("CountRow", self.0.len())?;
-        for (key, cell) in &self.0 {
-            row.serialize_field(key, cell)?;
-        }
-        row.end()
-    }
-}
-
-impl CountRow {
-    fn new(cells: impl IntoIterator<Item = (&'static str, Option<u64>)>) -> CountRow {
-        let cells = cells.into_iter();
-        CountRow(cells.map(|(key, n)| (key, CountCell::Number(n))).collect())
-    }
-
-    fn number(&self, key: &str) -> Option<u64> {
-        let found = self.0.iter().find(|(k, _)| *k == key)?;
-        match found.1 {
-            CountCell::Number(n) => n,
-            CountCell::Word(_) => None,
-        }
-    }
+fn row_of<K: Into<String>, V: Into<Value>>(cells: impl IntoIterator<Item = (K, V)>) -> CountRow {
+    cells
+        .into_iter()
+        .map(|(key, x)| (key.into(), x.into()))
+        .collect()
 }
 
 /// The counts of chains of hinges, each a key and its name: those of chains, of grippers with two jaws, and of grippers with three.
@@ -108,7 +81,7 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
     let counted = named(OF_HINGES).map(|(key, _)| key).zip(counted);
     let sizes = [("links", links), ("mobility", mobility)];
     let sizes = sizes.map(|(key, n)| (key, Some(n as u64)));
-    CountRow::new(sizes.into_iter().chain(counted))
+    row_of(sizes.into_iter().chain(counted))
 }
 
 const HINGED_LEGEND: &str = "\
@@ -123,11 +96,13 @@ and jaws move, and the jaws against each other.
 
 /// Returns a table with a column for each number of links, without rows that have no counts.
 pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
-    let links = all.iter().filter_map(|row| row.number("links"));
-    let heads = links.map(|n| format!(" | {n} links")).collect::<String>();
+    let heads = all
+        .iter()
+        .map(|row| format!(" | {} links", row["links"]))
+        .collect::<String>();
     let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
     let rows = named(OF_HINGES).filter_map(|(key, name)| {
-        let of = all.iter().map(|row| row.number(key)).collect_vec();
+        let of = all.iter().map(|row| row[key].as_u64()).collect_vec();
         let counted = of.iter().any(Option::is_some);
         let cells = of.into_iter().map(cell);
         counted.then(|| std::iter::once(name.to_owned()).chain(cells).collect())
@@ -139,56 +114,45 @@ pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
     )
 }
 
-/// One chain: the keys are a stable contract, in this order.
-#[derive(Debug, Clone, Serialize)]
-pub struct ChainData {
-    code: String,
-    links: usize,
-    joints: usize,
-    mobility: usize,
-    /// Links by their number of joints: "4x2 4x3".
-    assortment: String,
-    automorphisms: usize,
-    frames: u64,
-    inputs: u64,
-    drives: u64,
-}
-
-impl ChainData {
-    /// Returns the data of a chain in canonical numbering.
-    pub fn new(chain: &Chain) -> ChainData {
-        let degrees = (0..chain.links())
-            .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
-            .counts();
-        let some = degrees.into_iter().sorted();
-        let automorphisms = chain.canonical().1;
-        let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
-        ChainData {
-            code: graph6::write(chain),
-            links: chain.links(),
-            joints: chain.joints().len(),
-            mobility: chain.mobility(),
-            assortment: some
-                .map(|(joints, links)| format!("{links}x{joints}"))
-                .join(" "),
-            automorphisms: automorphisms.len(),
-            frames: c.frames,
-            inputs: c.inputs,
-            drives: c.inputs_at_frame,
-        }
-    }
+/// Returns the row of a chain in canonical numbering. Its assortment is its links by their number of joints: "4x2 4x3".
+pub fn chain_row(chain: &Chain) -> CountRow {
+    let degrees = (0..chain.links())
+        .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
+        .counts();
+    let some = degrees.into_iter().sorted();
+    let assortment = some
+        .map(|(joints, links)| format!("{links}x{joints}"))
+        .join(" ");
+    let automorphisms = chain.canonical().1;
+    let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
+    row_of([
+        ("code", json!(graph6::write(chain))),
+        ("links", json!(chain.links())),
+        ("joints", json!(chain.joints().len())),
+        ("mobility", json!(chain.mobility())),
+        ("assortment", json!(assortment)),
+        ("automorphisms", json!(automorphisms.len())),
+        ("frames", json!(c.frames)),
+        ("inputs", json!(c.inputs)),
+        ("drives", json!(c.inputs_at_frame)),
+    ])
 }
 
 /// Returns a table of chains.
-pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
+pub fn chains_text(all: &[CountRow], width: Option<u16>) -> String {
     let heads = "chain | joints | links | symmetries | frames | inputs | drives";
-    let row = |c: &ChainData| {
-        let (symmetries, links) = (&c.automorphisms, &c.assortment);
-        cells([
-            &c.code, &c.joints, links, symmetries, &c.frames, &c.inputs, &c.drives,
-        ])
-    };
-    let rows = all.iter().map(row);
+    let keys = [
+        "code",
+        "joints",
+        "assortment",
+        "automorphisms",
+        "frames",
+        "inputs",
+        "drives",
+    ];
+    let rows = all
+        .iter()
+        .map(|row| keys.iter().map(|key| bare(&row[*key])).collect());
     let note = "Chain: graph6 of the canonical numbering. Links: 4x2 are four with two joints.\n";
     format!("{}\n\n{}", table(heads, rows, width), fit(note, width))
 }
@@ -249,15 +213,12 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
             ("jaws", word(jaw, ["driven", "apart"])),
             ("input", word(slides, ["slide", "turn"])),
         ];
-        let sizes = sizes.map(|(key, n)| (key, n as u64));
-        let mut out = CountRow::new(sizes.into_iter().chain(chains).map(|(k, n)| (k, Some(n))));
-        out.0
-            .extend(words.map(|(key, word)| (key, CountCell::Word(word))));
-        let grippers = named(OF_PAIRS)
-            .zip(PAIRED)
-            .map(|((key, _), of)| (key, Some(g[of])));
-        out.0.extend(CountRow::new(grippers).0);
-        out
+        let sizes = sizes.map(|(key, n)| (key, json!(n))).into_iter();
+        let chains = chains.map(|(key, n)| (key, json!(n)));
+        let words = words.map(|(key, word)| (key, json!(word)));
+        let grippers = named(OF_PAIRS).zip(PAIRED);
+        let grippers = grippers.map(|((key, _), of)| (key, json!(g[of])));
+        row_of(sizes.chain(chains).chain(words).chain(grippers))
     };
     let rows = all.iter().cartesian_product(drives);
     rows.map(|((kinds, c), drive)| row(kinds, c, drive))
@@ -322,25 +283,13 @@ fn grippers(sum: &Census, width: Option<u16>) -> String {
     table(&heads, rows, width)
 }
 
-/// Counts of symmetric grippers of one number of links: the keys are a stable contract, in this order.
-#[derive(Debug, Clone, Serialize)]
-pub struct SymmetricCountsData {
-    links: usize,
-    /// `mirror` or `half-turn`.
-    symmetry: &'static str,
-    /// `apart` or `driven`.
-    jaws: &'static str,
-    /// Pairs that are not hinges, a left and a right one counted once.
-    orbits: usize,
-    essential: u64,
-}
-
-/// Returns the rows of one number of links, including those whose count is zero.
+/// Returns the rows of symmetric grippers of one number of links, including those whose count is zero. Orbits are pairs that are not
+/// hinges, a left and a right one counted once.
 pub fn symmetric_rows(
     links: usize,
     most: usize,
     counts: &BTreeMap<SymmetricKind, u64>,
-) -> Vec<SymmetricCountsData> {
+) -> Vec<CountRow> {
     let ways = iproduct!([false, true], [false, true], 0..=most);
     let row = |(half_turn, driven_jaw, orbits)| {
         let kind = SymmetricKind {
@@ -348,13 +297,16 @@ pub fn symmetric_rows(
             driven_jaw,
             orbits,
         };
-        SymmetricCountsData {
-            links,
-            symmetry: word(half_turn, ["half-turn", "mirror"]),
-            jaws: word(driven_jaw, ["driven", "apart"]),
-            orbits,
-            essential: counts.get(&kind).copied().unwrap_or_default(),
-        }
+        row_of([
+            ("links", json!(links)),
+            ("symmetry", json!(word(half_turn, ["half-turn", "mirror"]))),
+            ("jaws", json!(word(driven_jaw, ["driven", "apart"]))),
+            ("orbits", json!(orbits)),
+            (
+                "essential",
+                json!(counts.get(&kind).copied().unwrap_or_default()),
+            ),
+        ])
     };
     ways.map(row).collect()
 }
@@ -365,21 +317,16 @@ and a right one are one choice. Driven: a jaw is a link of the input joint.
 ";
 
 /// Returns a table with a row for each symmetry and number of choices, and a column for each number of links.
-pub fn symmetric_text(all: &[SymmetricCountsData], width: Option<u16>) -> String {
-    let links = all.iter().map(|c| c.links).unique().collect_vec();
-    let heads = links.iter().map(|n| format!(" | {n} links"));
+pub fn symmetric_text(all: &[CountRow], width: Option<u16>) -> String {
+    let links = all.iter().map(|row| bare(&row["links"])).unique();
+    let heads = links.map(|n| format!(" | {n} links"));
     let heads = format!("symmetry | jaws | choices{}", heads.format(""));
-    let key = |c: &&SymmetricCountsData| (c.symmetry, c.jaws, c.orbits);
-    let rows = all.iter().map(|c| key(&c)).unique().map(|own| {
-        let (symmetry, jaws, orbits) = own;
-        let words = [symmetry.to_owned(), jaws.to_owned(), orbits.to_string()];
-        let cells = all.iter().filter(|c| key(c) == own);
-        let cells = cells.map(|c| grouped(c.essential));
-        words.into_iter().chain(cells).collect_vec()
+    let key = |row: &&CountRow| ["symmetry", "jaws", "orbits"].map(|key| bare(&row[key]));
+    let rows = all.iter().map(|row| key(&row)).unique().map(|own| {
+        let counts = all.iter().filter(|row| key(row) == own);
+        let counts = counts.map(|row| cell(&row["essential"])).collect_vec();
+        [&own[..], &counts].concat()
     });
-    format!(
-        "{}\n\n{}",
-        table(&heads, rows, width),
-        fit(SYMMETRIC_LEGEND, width)
-    )
+    let table = table(&heads, rows, width);
+    format!("{table}\n\n{}", fit(SYMMETRIC_LEGEND, width))
 }

@@ -5,6 +5,7 @@ use crate::format::plain::plain;
 use crate::view::prelude::*;
 use crate::view::terminal::layout::table_of;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+use serde_json::Map;
 
 /// The answer to a question: as JSON a list of objects.
 #[derive(Debug, Clone)]
@@ -36,7 +37,7 @@ impl Serialize for QueryAnswer {
 }
 
 /// Returns a value without grouping or rounding.
-fn bare(value: &Value) -> String {
+pub(super) fn bare(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(s) => s.clone(),
@@ -85,6 +86,18 @@ fn head(name: &str) -> String {
 }
 
 impl QueryAnswer {
+    /// Returns rows of the same keys as an answer.
+    pub fn of(rows: &[Map<String, Value>]) -> QueryAnswer {
+        let names = rows
+            .first()
+            .map_or(Vec::new(), |row| row.keys().cloned().collect());
+        let rows = rows.iter().map(|row| row.values().cloned().collect());
+        QueryAnswer {
+            names,
+            rows: rows.collect(),
+        }
+    }
+
     /// Returns the answer as a table for people.
     pub fn text(&self, width: Option<u16>) -> String {
         let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
