@@ -9,9 +9,10 @@ use crate::file::disk;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
 use crate::view::catalog::structures::built_text;
+use serde::Serialize;
 use std::ops::ControlFlow;
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, ClapArgs, Serialize)]
 pub(crate) struct Build {
     /// Numbers of links, such as 4..8 (the last included); chains of mobility 1 have an even number, with gears and slots any.
     #[arg(long, value_name = "N..M")]
@@ -21,10 +22,12 @@ pub(crate) struct Build {
     jaws: Option<usize>,
     /// Motion of the driver: slide, turn [default: both].
     #[arg(long, value_name = "INPUT", value_delimiter = ',')]
+    #[serde(rename = "inputs")]
     input: Vec<String>,
     /// Symmetries of the layouts: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a
     /// plane with a turning input, about an axis with a slide) [default: all].
     #[arg(long, value_name = "SYMMETRY", value_delimiter = ',')]
+    #[serde(rename = "symmetries")]
     symmetry: Vec<String>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
     #[arg(long, value_name = "WORD")]
@@ -70,64 +73,48 @@ pub(crate) struct Build {
     crossings: Option<usize>,
     /// File with all these settings, in TOML; options on the command line take precedence.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[serde(skip)]
     spec: Option<PathBuf>,
     /// Build only part I of N, counted from 1; `ozols catalog merge` merges the parts.
     #[arg(long, value_name = "I/N")]
+    #[serde(skip)]
     shard: Option<Shard>,
     /// Database to write; an existing one of the same catalogue is completed.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[serde(skip)]
     output: PathBuf,
     // Last: what follows would stand under its heading in the help.
     #[command(flatten)]
     task: TaskArgs,
 }
 
+/// Puts given settings over others; false and empty lists are not given.
+fn overlay(under: &mut toml::Value, given: toml::Value) {
+    match (under, given) {
+        (toml::Value::Table(under), toml::Value::Table(given)) => {
+            for (key, x) in given {
+                overlay(under.entry(key).or_insert(x.clone()), x);
+            }
+        }
+        (_, toml::Value::Boolean(false)) => {}
+        (_, toml::Value::Array(list)) if list.is_empty() => {}
+        (under, x) => *under = x,
+    }
+}
+
 impl Build {
-    /// Returns the maximum number of pairs that are not hinges, among those asked for.
-    fn most_of(&self, spec: &Spec) -> anyhow::Result<usize> {
+    /// Puts what is given in its place.
+    fn put(&self, spec: &mut Spec) -> anyhow::Result<()> {
+        let mut all = toml::Value::try_from(&*spec)?;
+        overlay(&mut all, toml::Value::try_from(self)?);
+        *spec = all.try_into()?;
+        if let Some([from, to]) = self.task.widths {
+            (spec.task.narrowest, spec.task.widest) = (from, to);
+        }
         ensure!(
             self.at_most.is_none() || !spec.pairs.is_empty(),
             "--at-most limits pairs that are not hinges; name them with --pairs, such as --pairs slide,gear,slot"
         );
-        Ok(self.at_most.unwrap_or(spec.at_most))
-    }
-
-    /// Puts what is given in its place.
-    fn put(&self, spec: &mut Spec) -> anyhow::Result<()> {
-        if let Some(links) = &self.links {
-            spec.links.clone_from(links);
-        }
-        let lists = [
-            (&self.input, &mut spec.inputs),
-            (&self.symmetry, &mut spec.symmetries),
-            (&self.pairs, &mut spec.pairs),
-            (&self.options, &mut spec.options),
-            (&self.unloading, &mut spec.unloading),
-        ];
-        for (given, there) in lists {
-            if !given.is_empty() {
-                there.clone_from(given);
-            }
-        }
-        let words = [
-            (&self.parallel, &mut spec.parallel),
-            (&self.one_pin, &mut spec.one_pin),
-            (&self.flat_faces, &mut spec.flat_faces),
-        ];
-        for (given, there) in words {
-            if let Some(word) = given {
-                there.clone_from(word);
-            }
-        }
-        spec.generic_pairs |= self.generic_pairs;
-        spec.classics |= self.classics;
-        spec.at_most = self.most_of(spec)?;
-        spec.jaws = self.jaws.unwrap_or(spec.jaws);
-        spec.ideas = self.ideas.unwrap_or(spec.ideas);
-        spec.ratio = self.ratio.unwrap_or(spec.ratio);
-        spec.transmission = self.transmission.unwrap_or(spec.transmission);
-        spec.crossings = self.crossings.unwrap_or(spec.crossings);
-        self.task.put(&mut spec.task);
         Ok(())
     }
 

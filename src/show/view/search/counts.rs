@@ -10,7 +10,6 @@ use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 /// Rows of mobilities told at most; JSON and the page have them all.
 const MOBILITIES: usize = 12;
@@ -22,33 +21,30 @@ pub(super) const IDEAS: &str =
 /// Returns the verdict and how it was checked; with `verbose` also which variants are minimal, and the counts by mobility.
 pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
     let verbose = verbose || matches!(outcome.request.list, List::Nothing | List::Top(0));
-    let mut out = verdict(outcome, verbose);
-    let lines = minimal(outcome).filter(|_| verbose).into_iter();
-    let lines = lines.chain(numeric::lines(outcome));
-    // Writing to a string cannot fail.
-    for line in lines.chain(second_opinion::lines(outcome)) {
-        let _ = writeln!(out, "  {line}");
-    }
-    // Two primes that agree on rounded digits prove nothing.
-    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
-        let _ = match check.verdict {
-            Verdict::Agree => writeln!(out, "  Checked: two runs with different primes agree"),
-            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
-        };
-    }
+    let mut out = Report::new(width);
+    write_verdict(&mut out, outcome, verbose);
     let exact = outcome.numeric.is_none();
-    let cut_short = exact.then(|| stopped_early::stopped(outcome)).flatten();
-    for line in cut_short
-        .into_iter()
-        .chain(stopped_early::estimated(outcome))
-        .chain(exact.then(|| stopped_early::more(outcome)).flatten())
-    {
-        let _ = writeln!(out, "  {line}");
-    }
-    if verbose {
-        out += &by_mobility(outcome, width);
-    }
-    fit(&out, width)
+    // Two primes that agree on rounded digits prove nothing.
+    let check = outcome.check.filter(|_| outcome.is_confirmed());
+    let check = check.map(|check| match check.verdict {
+        Verdict::Agree => "Checked: two runs with different primes agree",
+        Verdict::Interrupted => "Not checked by a second prime: interrupted",
+    });
+    let lines = minimal(outcome).filter(|_| verbose).into_iter();
+    let lines = lines
+        .chain(numeric::lines(outcome))
+        .chain(second_opinion::lines(outcome));
+    let lines = lines.chain(check.map(str::to_owned));
+    let lines = lines.chain(exact.then(|| stopped_early::stopped(outcome)).flatten());
+    let lines = lines.chain(stopped_early::estimated(outcome));
+    let lines = lines.chain(exact.then(|| stopped_early::more(outcome)).flatten());
+    lines.for_each(|line| out.line(format!("  {line}")));
+    let table = if verbose {
+        by_mobility(outcome, width)
+    } else {
+        String::new()
+    };
+    out.text() + &fit(&table, width)
 }
 
 /// "σ = 0", or the redundant constraints that are allowed.
@@ -69,8 +65,7 @@ fn keep_motion(mechanism: &Mechanism) -> &'static str {
 }
 
 /// Returns how many variants meet all conditions, and how many have few enough redundant constraints, if counts are asked for.
-fn verdict(outcome: &Outcome, verbose: bool) -> String {
-    let mut out = String::new();
+fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
     let least = if outcome.is_counted() {
         ""
     } else {
@@ -110,30 +105,26 @@ fn verdict(outcome: &Outcome, verbose: bool) -> String {
         let listed = &outcome.listed_counts().total;
         stopped_early::number(listed, outcome.is_counted(), estimate)
     };
-    // Writing to a string cannot fail.
     let of = plural_of(&grouped(&size), "variant");
-    let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
+    out.line(format!("{mechanism}: {good} of {of} {all}"));
     if size == BigUint::from(1u8) {
-        let _ = writeln!(
-            out,
+        out.line(
             "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
              [\"cylindrical\", \"spherical\"]"
         );
     }
     if let Some(line) = in_the_pose(outcome) {
-        let _ = writeln!(out, "  {line}");
+        out.line(format!("  {line}"));
     }
     if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => determinate(outcome),
         };
-        let _ = writeln!(
-            out,
+        out.line(format!(
             "  {determinate} with {condition} before the other conditions"
-        );
+        ));
     }
-    out
 }
 
 /// Where variants keep the motion, so far as that is known.
