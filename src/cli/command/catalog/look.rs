@@ -13,7 +13,7 @@ use crate::search::Search;
 use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
 use crate::synthesis::recognize::recognize;
-use crate::view::catalog::find::{FoundData, InCatalogue, found_text};
+use crate::view::catalog::find::{FoundData, InCatalogue};
 use crate::view::catalog::query::QueryAnswer;
 use crate::view::catalog::structures::StructureData;
 
@@ -209,9 +209,9 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
     });
     let data = FoundData::new(&found, &part, known.transpose()?);
     a.to.put(if a.json {
-        output::json(&data)?
+        output::json(&data.json())?
     } else {
-        found_text(&m.name, &data, a.to.width())
+        data.text(&m.name, a.to.width())
     })?;
     Ok(Done::found(data.is_known()))
 }

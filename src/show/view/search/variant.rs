@@ -75,14 +75,6 @@ fn other_poses(s: &OverStroke) -> Value {
     json!({ "poses": s.poses, "other": s.other.map(other) })
 }
 
-/// A joint that another takes the place of.
-#[derive(serde::Serialize)]
-struct ChangeData<'a> {
-    joint: &'a str,
-    from: String,
-    to: String,
-}
-
 /// Returns a cost given in thousandths.
 #[allow(clippy::cast_precision_loss, reason = "costs are small")]
 pub(crate) fn price(milli: i64) -> Value {
@@ -93,11 +85,9 @@ pub(crate) fn price(milli: i64) -> Value {
 }
 
 /// Returns changes of a mechanism as data.
-fn changed(m: &Mechanism, changes: Vec<Change>) -> Vec<ChangeData<'_>> {
-    let one = |Change { joint, from, to }| {
-        let joint = &m.joints[joint].id;
-        ChangeData { joint, from, to }
-    };
+fn changed(m: &Mechanism, changes: Vec<Change>) -> Value {
+    let one =
+        |Change { joint, from, to }| json!({ "joint": m.joints[joint].id, "from": from, "to": to });
     changes.into_iter().map(one).collect()
 }
 
