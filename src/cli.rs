@@ -3,6 +3,7 @@
 mod command;
 mod examples;
 mod option;
+mod prelude;
 mod terminal;
 
 use crate::builtin;
@@ -86,7 +87,7 @@ pub fn run_with(words: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Show(a) => command::check::show(a),
         Command::Schema => command::check::schema(),
         Command::Explain(a) => command::explain::run(a),
-        Command::Completions(a) => command::completions::run(a, Args::command()),
+        Command::Completions(a) => command::check::completions(a, Args::command()),
     });
     let told = |done| match &opened {
         Some(file) => command::check::tell_next(file).map(|_| done),

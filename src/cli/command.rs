@@ -1,34 +1,33 @@
 //! The commands, one file each; this is the list of them.
 
-pub(in crate::cli) mod accuracy;
-pub(in crate::cli) mod analyze;
-pub(in crate::cli) mod bench;
-pub(in crate::cli) mod catalog;
-pub(in crate::cli) mod check;
-pub(in crate::cli) mod clamped;
-pub(in crate::cli) mod completions;
-pub(in crate::cli) mod draw;
-pub(in crate::cli) mod drive;
-pub(in crate::cli) mod explain;
-pub(in crate::cli) mod export;
-pub(in crate::cli) mod fix;
-pub(in crate::cli) mod grip;
-pub(in crate::cli) mod lint;
-pub(in crate::cli) mod list;
-pub(in crate::cli) mod new;
-pub(in crate::cli) mod report;
-pub(in crate::cli) mod search;
-pub(in crate::cli) mod statics;
-pub(in crate::cli) mod studio;
-pub(in crate::cli) mod types;
-pub(in crate::cli) mod verify;
+pub(crate) mod accuracy;
+pub(crate) mod analyze;
+pub(crate) mod bench;
+pub(crate) mod catalog;
+pub(crate) mod check;
+pub(crate) mod clamped;
+pub(crate) mod draw;
+pub(crate) mod drive;
+pub(crate) mod explain;
+pub(crate) mod export;
+pub(crate) mod fix;
+pub(crate) mod grip;
+pub(crate) mod lint;
+pub(crate) mod list;
+pub(crate) mod new;
+pub(crate) mod report;
+pub(crate) mod search;
+pub(crate) mod statics;
+pub(crate) mod studio;
+pub(crate) mod types;
+pub(crate) mod verify;
 
 use crate::cli::examples;
 use crate::cli::option::named::File;
 use clap::Subcommand;
 
 #[derive(Debug, Subcommand)]
-pub(in crate::cli) enum Command {
+pub(crate) enum Command {
     /// Analyse mobility and redundant constraints, state by state.
     #[command(after_help = examples::ANALYZE)]
     Analyze(analyze::Analyze),
@@ -94,5 +93,5 @@ pub(in crate::cli) enum Command {
     Explain(explain::Explain),
     /// Print a script that completes commands and options in a shell.
     #[command(after_help = examples::COMPLETIONS)]
-    Completions(completions::Completions),
+    Completions(check::Completions),
 }

@@ -1,35 +1,61 @@
 //! Arguments of several commands, and arguments of every command.
 
-pub(super) mod load;
-pub(super) mod named;
-pub(super) mod picture;
-pub(super) mod reading;
-pub(super) mod request;
-pub(super) mod variant;
+pub(crate) mod load;
+pub(crate) mod named;
+pub(crate) mod picture;
+pub(crate) mod reading;
+pub(crate) mod request;
+pub(crate) mod variant;
 
+use crate::cli::terminal::{Done, output};
 use clap::{Args as ClapArgs, ValueEnum};
+use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(super) struct Global {
+pub(crate) struct Global {
     /// Print errors only: no progress, import report or warnings.
     #[arg(long, short, global = true)]
-    pub(super) quiet: bool,
+    pub(crate) quiet: bool,
     /// Number of threads [default: all processors]. Results do not depend on it.
     #[arg(long, global = true, value_name = "N")]
-    pub(super) threads: Option<usize>,
+    pub(crate) threads: Option<usize>,
     /// Seed of random samples.
     #[arg(long, global = true, value_name = "N", default_value_t = 1)]
-    pub(super) seed: u64,
+    pub(crate) seed: u64,
+}
+
+/// The file that a command writes.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ToFile {
+    /// Write to a file instead of standard output.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl ToFile {
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.output.as_deref()
+    }
+
+    /// Returns the width that a text may have there, or `None` for any.
+    pub(crate) fn width(&self) -> Option<u16> {
+        output::width(self.path())
+    }
+
+    /// Writes a text or other bytes.
+    pub(crate) fn put(&self, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
+        output::put(self.path(), all)
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum TextOrJson {
+pub(crate) enum TextOrJson {
     Text,
     Json,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum TextJsonOrCsv {
+pub(crate) enum TextJsonOrCsv {
     Text,
     Json,
     Csv,

@@ -1,21 +1,28 @@
 //! The terminal: output, progress, interrupts, colour, memory.
 
-pub(super) mod charts;
-pub(super) mod colour;
-pub(super) mod interrupt;
-pub(super) mod machine;
-pub(super) mod memory;
-pub(super) mod output;
-pub(super) mod progress;
-pub(super) mod spinner;
+pub(crate) mod charts;
+pub(crate) mod colour;
+pub(crate) mod interrupt;
+pub(crate) mod machine;
+pub(crate) mod memory;
+pub(crate) mod output;
+pub(crate) mod progress;
+pub(crate) mod spinner;
 
 /// The way a command ended without failing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Done {
+pub(crate) enum Done {
     /// It did what was asked.
     Found,
     /// Nothing was found, or something was found that should not exist.
     Nothing,
     /// Some of it failed, which was reported, and the rest was done.
     Partly,
+}
+
+impl Done {
+    /// Returns `Found` or `Nothing`.
+    pub(crate) fn found(found: bool) -> Done {
+        if found { Done::Found } else { Done::Nothing }
+    }
 }

@@ -9,7 +9,6 @@ use ozols::score::request::{List, Request};
 use ozols::score::run::{Event, run};
 use ozols::search::answer::k_best::Assignment;
 use ozols::view::search::csv;
-use ozols::view::search::data;
 use ozols::view::search::json;
 use ozols::view::search::text;
 use pyo3::exceptions::PyUserWarning;
@@ -71,7 +70,7 @@ pub(crate) struct Outcome(Arc<ozols::Outcome>);
 impl Outcome {
     /// Returns everything except the variants as JSON.
     fn counts(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| json(&data::search(&self.0)))
+        py.detach(|| json(&json::search(&self.0)))
     }
 
     /// Returns the JSON that the command prints, without the seconds.

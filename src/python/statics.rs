@@ -31,7 +31,7 @@ pub(crate) fn statics(
             Err(e) => Err(failed(e)),
             Ok(Some(g)) if stroke.is_none() => round_a_part(&g, spatial),
             Ok(Some(_)) => Err(failed(
-                "--stroke needs a motion, but the levers are at rest on the part",
+                "stroke needs a motion, but the levers are at rest on the part",
             )),
             Ok(None) => reactions_of(m, state, stroke, (spatial, unilateral)),
         }
@@ -77,7 +77,7 @@ fn round_a_part(g: &Gripping, spatial: bool) -> PyResult<Answer> {
 }
 
 fn answer(view: &ToldStatics<'_>) -> PyResult<Answer> {
-    Ok((json(view)?, view.text(None), Some(view.csv()), None))
+    Ok((json(&view.json())?, view.text(None), Some(view.csv()), None))
 }
 
 fn not_held(view: &NotHeld<'_>) -> PyResult<Answer> {

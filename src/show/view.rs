@@ -8,6 +8,7 @@ pub(crate) mod claims;
 pub mod drive;
 pub mod grip;
 pub mod lint;
+mod prelude;
 pub mod reactions;
 pub mod search;
 pub mod statics;
@@ -21,7 +22,7 @@ use serde_json::Value;
 use std::fmt::Display;
 
 /// Returns the words for how sure a figure is, with the number of assumptions where there are any.
-fn as_read(m: &Mechanism, sure: String) -> String {
+pub(crate) fn as_read(m: &Mechanism, sure: String) -> String {
     match with_assumptions(m) {
         None => sure,
         Some(read) => format!("{read}: {sure}"),
@@ -29,7 +30,7 @@ fn as_read(m: &Mechanism, sure: String) -> String {
 }
 
 /// Returns "of the file as read, with 2 assumptions", or nothing where nothing was assumed.
-fn with_assumptions(m: &Mechanism) -> Option<String> {
+pub(crate) fn with_assumptions(m: &Mechanism) -> Option<String> {
     let n = m.assumed.len();
     (n > 0).then(|| format!("of the file as read, with {}", plural(n, "assumption")))
 }
@@ -40,7 +41,7 @@ pub(crate) fn kind(m: &Mechanism, sure: &'static str) -> &'static str {
 }
 
 /// What is said of figures that rest on assumptions.
-const AS_READ: &str = "as-read";
+pub(crate) const AS_READ: &str = "as-read";
 
 /// The number of the contract of all JSON that the commands print. It is raised when a key goes or means something else; keys that
 /// come are no new contract.
@@ -69,7 +70,7 @@ pub fn pretty(value: &impl Serialize) -> serde_json::Result<String> {
 }
 
 /// Returns "2", or "0 to 2".
-fn span<T: PartialEq + Display>(least: T, most: T) -> String {
+pub(crate) fn span<T: PartialEq + Display>(least: T, most: T) -> String {
     if least == most {
         least.to_string()
     } else {
@@ -78,7 +79,7 @@ fn span<T: PartialEq + Display>(least: T, most: T) -> String {
 }
 
 /// Returns one object with the entries of all.
-fn joined<const N: usize>(parts: [Value; N]) -> Value {
+pub(crate) fn joined<const N: usize>(parts: [Value; N]) -> Value {
     let entries = parts.into_iter().filter_map(|part| match part {
         Value::Object(entries) => Some(entries),
         _ => None,

@@ -5,17 +5,12 @@ use crate::accuracy::stability::{self, Effort};
 use crate::accuracy::survey::{Survey, cases, generated};
 use crate::accuracy::timing::Stopwatch;
 use crate::builtin;
-use crate::cli::option::Global;
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, machine, output};
+use crate::cli::prelude::*;
+use crate::cli::terminal::machine;
 use crate::view::accuracy::summary;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, ensure};
-use clap::Args as ClapArgs;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Accuracy {
+pub(crate) struct Accuracy {
     /// Write charts and tables to this folder, with index.html as the start page; without it only the table is printed.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -27,7 +22,7 @@ pub(in crate::cli) struct Accuracy {
     repeat: Option<usize>,
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
     let repeat = a.repeat.unwrap_or(if a.quick { 1 } else { 5 });
     ensure!(repeat > 0, "--repeat must be at least 1");
     // The folder before the work: a bad path should not cost a minute.
@@ -61,27 +56,18 @@ pub(in crate::cli) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
         output::files(folder, pictures::files(both, &studies, &machine, &made))?;
         bar.clear();
         let text = summary(both, &studies, &machine, output::width(None));
-        return output::to(None, |out| {
-            writeln!(
-                out,
-                "{text}\nWritten to {}: open it in a browser.",
-                folder.join("index.html").display()
-            )?;
-            Ok(Done::Found)
-        });
+        let index = folder.join("index.html");
+        let written = format!("Written to {}: open it in a browser.", index.display());
+        return output::put(None, format!("{text}\n{written}\n"));
     }
     bar.clear();
-    output::to(None, |out| {
-        let text = summary(both, &[], &machine, output::width(None));
-        let charts = NextCommand {
-            command: "ozols accuracy -o accuracy".to_owned(),
-            gives: "the same as charts, and where each method's numbers fail".to_owned(),
-        };
-        write!(
-            out,
-            "{text}{}",
-            next_commands::text(&[charts], output::width(None))
-        )?;
-        Ok(Done::Found)
-    })
+    let text = summary(both, &[], &machine, output::width(None));
+    let charts = NextCommand {
+        command: "ozols accuracy -o accuracy".to_owned(),
+        gives: "the same as charts, and where each method's numbers fail".to_owned(),
+    };
+    output::put(
+        None,
+        text + &next_commands::text(&[charts], output::width(None)),
+    )
 }

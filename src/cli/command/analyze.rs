@@ -1,29 +1,17 @@
 //! `ozols analyze`.
 
 use crate::cli::command::verify;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, TextOrJson, load};
-use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::read::workload::motion::stroke;
-use crate::model::mechanism::{LinkId, Mechanism, StateId};
-use crate::rank::method::registry;
-use crate::rank::method::{MobilityMethod, RankOfJ};
+use crate::rank::method::{MobilityMethod, RankOfJ, registry};
 use crate::rank::rounded::verdict::verdict;
 use crate::rank::stroke::request::AskedStroke;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::mobility::ByMethod;
 use crate::view::analysis::next::next as steps;
-use crate::view::analysis::suggestions;
-use crate::view::analysis::{Analysis, State};
+use crate::view::analysis::{Analysis, State, suggestions};
 use crate::view::stroke::StrokeData;
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail, ensure};
-use clap::Args as ClapArgs;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use itertools::Itertools;
-use std::path::PathBuf;
 
 /// Parses the name of a rank method; lists the surest method first.
 fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
@@ -34,21 +22,21 @@ fn rank_method() -> impl TypedValueParser<Value = &'static dyn MobilityMethod> {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Analyze {
+pub(crate) struct Analyze {
     #[command(flatten)]
-    pub(in crate::cli) file: File,
+    pub(crate) file: File,
     /// State to analyse, such as free or clamped, or all.
     #[arg(long, default_value = "all")]
-    pub(in crate::cli) state: String,
+    pub(crate) state: String,
     /// Method that computes the rank.
     #[arg(long, value_parser = rank_method(), default_value = "auto")]
     method: &'static dyn MobilityMethod,
     /// Relative tolerance of the floating-point methods [default: depends on the method].
     #[arg(long, value_name = "T")]
-    pub(in crate::cli) tolerance: Option<f64>,
+    pub(crate) tolerance: Option<f64>,
     /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial.
     #[arg(long)]
-    pub(in crate::cli) planar: bool,
+    pub(crate) planar: bool,
     /// Also report the motion of this link (repeatable).
     #[arg(long, value_name = "LINK")]
     link: Vec<String>,
@@ -57,30 +45,29 @@ pub(in crate::cli) struct Analyze {
     relative_to: Option<String>,
     /// Also print the counts behind W and σ, the method, the self-stresses, and published claims one by one.
     #[arg(long, short)]
-    pub(in crate::cli) verbose: bool,
+    pub(crate) verbose: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: TextOrJson,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    pub(in crate::cli) output: Option<PathBuf>,
+    pub(crate) format: TextOrJson,
+    #[command(flatten)]
+    to: ToFile,
     /// Also write a proof of each state's rank to a JSON file, for `ozols verify`.
     #[arg(long, value_name = "FILE")]
-    pub(in crate::cli) certificate: Option<PathBuf>,
+    pub(crate) certificate: Option<PathBuf>,
     /// Also analyse the poses over a range of the drive, as FROM:TO:STEPS from the drawn pose, for example 0:360deg:72. Numbers
     /// without a unit are radians, or the file's length unit for sliding drives. Uses the first state unless --state names one.
     #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
-    pub(in crate::cli) stroke: Option<String>,
+    pub(crate) stroke: Option<String>,
     /// Joint that moves over the stroke, as JOINT:FREEDOM if it has several freedoms [default: the file's first drive]. The
     /// file's other drives are locked, unless this joint is none of them.
     #[arg(long, value_name = "JOINT", requires = "stroke")]
-    pub(in crate::cli) drive: Option<String>,
+    pub(crate) drive: Option<String>,
     /// Write a chart of the conditioning over the stroke to a file.
     #[arg(long, value_name = "FILE", requires = "stroke")]
-    pub(in crate::cli) svg: Option<PathBuf>,
+    pub(crate) svg: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut mechanism);
@@ -111,10 +98,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     }
     let stroke = stroke.as_ref().map(StrokeData::of);
     if let (Some(s), Some(path)) = (&stroke, &a.svg) {
-        output::to(Some(path), |out| {
-            write!(out, "{}", s.chart().svg())?;
-            Ok(Done::Found)
-        })?;
+        output::put(Some(path), s.chart().svg())?;
     }
     let advice = suggestions::advise(&mechanism, &states, &found)?;
     let mut analysis = Analysis {
@@ -141,11 +125,7 @@ fn states_asked(mechanism: &Mechanism, a: &Analyze) -> anyhow::Result<Vec<StateI
         (_, Some(s)) => vec![s],
         ("all", None) if a.stroke.is_some() => vec![StateId::FREE],
         ("all", None) => mechanism.state_ids().collect(),
-        (other, None) => bail!(
-            "{} has no state {other}; it has: {}",
-            mechanism.name,
-            mechanism.states.join(", ")
-        ),
+        (other, None) => vec![load::state(mechanism, other)?],
     })
 }
 
@@ -193,29 +173,21 @@ fn check_tolerance(a: &Analyze) -> anyhow::Result<()> {
 
 /// Writes what was found in the format asked for; text says what to do next.
 fn write(a: &Analyze, analysis: &Analysis<'_>, next: &[NextCommand]) -> anyhow::Result<Done> {
-    let width = output::width(a.output.as_deref());
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &analysis.json())?,
-            TextOrJson::Text => {
-                let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
-                let text = toned(
-                    analysis.text(width, a.verbose),
-                    a.output.as_deref(),
-                    verdicts,
-                );
-                write!(out, "{text}")?;
-                if let Some(s) = &analysis.stroke {
-                    write!(out, "\n{}", fit(&s.text(width), width))?;
-                }
-                let next = a.file.with_loops(next_commands::text(next, width));
-                write!(out, "{next}")?;
-            }
+    let width = a.to.width();
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&analysis.json())?,
+        TextOrJson::Text => {
+            let verdicts = analysis.states.iter().map(|s| (s.verdict(), tone(s)));
+            let text = toned(analysis.text(width, a.verbose), a.to.path(), verdicts);
+            let stroke = analysis.stroke.as_ref();
+            let stroke = stroke.map(|s| format!("\n{}", fit(&s.text(width), width)));
+            let next = a.file.with_loops(next_commands::text(next, width));
+            text + &stroke.unwrap_or_default() + &next
         }
-        // A stroke that could not be finished is no success.
-        let stopped = analysis.stroke.as_ref().is_some_and(StrokeData::stops);
-        Ok(if stopped { Done::Nothing } else { Done::Found })
-    })
+    })?;
+    // A stroke that could not be finished is no success.
+    let stopped = analysis.stroke.as_ref().is_some_and(StrokeData::stops);
+    Ok(Done::found(!stopped))
 }
 
 /// Returns the tone of a verdict: good news or bad.
@@ -252,11 +224,8 @@ fn mobility_alone(mechanism: &Mechanism, states: &[StateId], a: &Analyze) -> any
         method,
         answers,
     };
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &found.json())?,
-            TextOrJson::Text => write!(out, "{}", found.text())?,
-        }
-        Ok(Done::Found)
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&found.json())?,
+        TextOrJson::Text => found.text(),
     })
 }

@@ -6,18 +6,12 @@ use crate::accuracy::searching::record::Trial;
 use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::searching::{MECHANISMS, TrialEffort, pictures, record, trial};
 use crate::accuracy::timing::Stopwatch;
-use crate::cli::option::named::{Loops, Named};
 use crate::cli::option::request::Which;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, machine, output};
-use crate::model::mechanism::Mechanism;
+use crate::cli::prelude::*;
+use crate::cli::terminal::machine;
 use crate::score::request::{List, Request};
 use crate::search::question::conditions::Symmetry;
-use crate::view::accuracy::{BenchData, bench_text};
-use anyhow::{Context, ensure};
-use clap::{Args as ClapArgs, ValueEnum, ValueHint};
-use std::path::PathBuf;
+use crate::view::accuracy::{bench_json, bench_text};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum BenchFormat {
@@ -28,7 +22,7 @@ enum BenchFormat {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Bench {
+pub(crate) struct Bench {
     /// Paths or names of built-in mechanisms [default: six built-in ones and a planar ladder of eight loops].
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     files: Vec<Named>,
@@ -103,7 +97,7 @@ impl Trials {
     }
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
     let asked = Trials::asked(args, a)?;
     // The folder and the files before the work: a bad path should not cost a minute.
     if let Some(folder) = &a.output {
@@ -142,22 +136,15 @@ pub(in crate::cli) fn run(args: &Global, a: &Bench) -> anyhow::Result<Done> {
         );
         output::files(folder, pictures::files(&trials, &machine, &made))?;
     }
-    output::to(None, |out| {
-        match a.format {
-            BenchFormat::Text => {
-                write!(
-                    out,
-                    "{}",
-                    bench_text(&trials, &machine, output::width(None))
-                )?;
-            }
-            BenchFormat::Json => output::json(out, &BenchData::new(&trials, &machine))?,
-            BenchFormat::Csv => write!(out, "{}", record::csv(&trials))?,
-        }
-        if let Some(folder) = &a.output {
-            let index = folder.join("index.html");
-            writeln!(out, "Written to {}: open it in a browser.", index.display())?;
-        }
-        Ok(if well { Done::Found } else { Done::Partly })
-    })
+    let mut text = match a.format {
+        BenchFormat::Text => bench_text(&trials, &machine, output::width(None)),
+        BenchFormat::Json => output::json(&bench_json(&trials, &machine))?,
+        BenchFormat::Csv => record::csv(&trials),
+    };
+    if let Some(folder) = &a.output {
+        let index = folder.join("index.html");
+        text += &format!("Written to {}: open it in a browser.\n", index.display());
+    }
+    output::put(None, text)?;
+    Ok(if well { Done::Found } else { Done::Partly })
 }

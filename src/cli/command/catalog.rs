@@ -8,12 +8,11 @@ mod merge;
 mod task;
 mod wanted;
 
-use crate::cli::option::Global;
-use crate::cli::terminal::Done;
-use clap::{Args as ClapArgs, Subcommand};
+use crate::cli::prelude::*;
+use clap::Subcommand;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Catalog {
+pub(crate) struct Catalog {
     #[command(subcommand)]
     what: What,
 }
@@ -42,7 +41,7 @@ enum What {
     Page(look::Page),
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Catalog) -> anyhow::Result<Done> {
     match &a.what {
         What::Count(c) => chains::count(args, c),
         What::Chains(c) => chains::list(c),

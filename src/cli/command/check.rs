@@ -1,42 +1,33 @@
-//! `ozols check`, `show` and `schema`.
+//! `ozols check`, `show`, `schema` and `completions`.
 
 use crate::builtin;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::{Done, output};
-use crate::file::lint::{Checked, across, check};
+use crate::cli::prelude::*;
+use crate::file::lint::{across, check};
 use crate::file::locate::DocumentPath;
 use crate::file::problem::Warnings;
 use crate::file::read::workload::tables_alone;
-use crate::format::plural;
 use crate::grip::jaw_loads::{Gripping, JawError};
-use crate::model::mechanism::{Expected, Mechanism};
+use crate::model::mechanism::Expected;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
+use crate::view::analysis::idle::drive_fault;
 use crate::view::analysis::mechanism::describe;
 use crate::view::search::costs;
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
 
 /// Name of the table of costs for `show`; no built-in mechanism has this name.
 const COSTS: &str = "costs";
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Show {
+pub(crate) struct Show {
     /// Name of a built-in mechanism, or `costs` for the table of default costs that --costs takes.
     #[arg(value_name = "NAME")]
     name: String,
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(a)?;
     if let Some((name, tables)) = tables_alone(&name, &bytes)? {
-        return output::to(None, |out| {
-            writeln!(out, "{name}: workload {}: valid", tables.join(", "))?;
-            Ok(Done::Found)
-        });
+        let tables = tables.join(", ");
+        return output::put(None, format!("{name}: workload {tables}: valid\n"));
     }
     let mut checked = check(&name, &bytes)?;
     for state in checked.mechanism.state_ids() {
@@ -47,48 +38,50 @@ pub(in crate::cli) fn run(args: &Global, a: &File) -> anyhow::Result<Done> {
         }
     }
     stale(&checked.mechanism, &mut checked.warnings);
-    let Checked {
-        mechanism,
-        tables,
-        warnings,
-    } = &checked;
+    drives(&checked.mechanism, &mut checked.warnings);
+    let (m, warnings) = (&checked.mechanism, &checked.warnings);
+    let (verdict, tone) = match warnings.warnings.len() {
+        0 => ("valid".to_owned(), Tone::Good),
+        n => (format!("valid, {}", plural(n, "warning")), Tone::Doubtful),
+    };
+    let head = fit(&format!("{}: {verdict}\n", m.name), output::width(None));
+    output::put(None, toned(head, None, [(verdict, tone)]))?;
     if !warnings.warnings.is_empty() && !args.quiet {
         output::coloured_note(&warnings.render(true));
     }
-    output::to(None, |out| {
-        let verdict = match warnings.warnings.len() {
-            0 => "valid".to_owned(),
-            n => format!("valid, {}", plural(n, "warning")),
-        };
-        let mut text = format!("{}: {verdict}\n", mechanism.name);
-        for line in describe(mechanism, across(mechanism)) {
-            text += &format!("  {line}\n");
-        }
-        for table in tables {
-            text += &format!("  workload {table}: for `ozols {table}`\n");
-        }
-        let tone = match warnings.warnings.len() {
-            0 => Tone::Good,
-            _ => Tone::Doubtful,
-        };
-        let text = fit(&text, output::width(None));
-        write!(out, "{}", toned(text, None, [(verdict, tone)]))?;
-        Ok(Done::Found)
-    })
+    let lines = describe(m, across(m)).into_iter();
+    let tables = checked.tables.iter();
+    let tables = tables.map(|table| format!("workload {table}: for `ozols {table}`"));
+    let lines = lines.chain(tables).map(|line| format!("  {line}\n"));
+    output::put(None, fit(&lines.collect::<String>(), output::width(None)))
 }
 
 /// Prints what to do next with a file.
-pub(in crate::cli) fn tell_next(file: &str) -> anyhow::Result<Done> {
+pub(crate) fn tell_next(file: &str) -> anyhow::Result<Done> {
     let next = [
         ("analyze", "Show what is redundant, and where"),
         ("search", "Find the redesigns that remove it"),
         ("studio", "Draw and change it in the browser"),
     ];
     let next = next.map(|(command, gives)| NextCommand::new(command, file, "", gives));
-    output::to(None, |out| {
-        write!(out, "{}", next_commands::text(&next, output::width(None)))?;
-        Ok(Done::Found)
-    })
+    output::put(None, next_commands::text(&next, output::width(None)))
+}
+
+/// Warns of faults of the drives, in the words of `ozols analyze`.
+fn drives(m: &Mechanism, warnings: &mut Warnings) {
+    let Some(first) = m.joints.iter().position(|j| j.drive) else {
+        return;
+    };
+    // Why there is no analysis is for `ozols analyze` to say.
+    let found = analyse(m, &[StateId::FREE], Method::Auto).unwrap_or_default();
+    let faults = found.iter().flat_map(|s| &s.drives);
+    let faults = faults.map(|fault| {
+        let (_, joint, what) = drive_fault(m, fault);
+        let joint = joint.and_then(|id| m.joints.iter().position(|j| j.id == id));
+        let path = DocumentPath::root("joint").index(joint.unwrap_or(first));
+        (path.key("drive"), what.into())
+    });
+    warnings.add(faults.collect());
 }
 
 /// A figure that the file states, and what the analysis finds.
@@ -149,20 +142,28 @@ fn stale(m: &Mechanism, warnings: &mut Warnings) {
     warnings.add(stale);
 }
 
-pub(in crate::cli) fn show(a: &Show) -> anyhow::Result<Done> {
+pub(crate) fn show(a: &Show) -> anyhow::Result<Done> {
     let costs = (a.name == COSTS).then(costs::toml);
     let Some(text) = costs.as_deref().or_else(|| builtin::text(&a.name)) else {
         bail!(load::no_built_in(&a.name))
     };
-    output::to(None, |out| {
-        write!(out, "{text}")?;
-        Ok(Done::Found)
-    })
+    output::put(None, text)
 }
 
-pub(in crate::cli) fn schema() -> anyhow::Result<Done> {
-    output::to(None, |out| {
-        writeln!(out, "{:#}", crate::file::schema::json_schema())?;
-        Ok(Done::Found)
-    })
+pub(crate) fn schema() -> anyhow::Result<Done> {
+    output::put(None, format!("{:#}\n", crate::file::schema::json_schema()))
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct Completions {
+    /// Shell to complete for.
+    #[arg(value_enum, value_name = "SHELL")]
+    shell: clap_complete::Shell,
+}
+
+pub(crate) fn completions(a: &Completions, mut program: clap::Command) -> anyhow::Result<Done> {
+    // The generator panics where it cannot write, so it writes to memory.
+    let mut script = Vec::new();
+    clap_complete::generate(a.shell, &mut program, "ozols", &mut script);
+    output::put(None, script)
 }

@@ -1,14 +1,12 @@
 //! `ozols statics` of a mechanism that grips: the part is cut free, and its contact forces act on the jaws.
 
 use crate::cli::command::statics::args::{Statics, StaticsFormat, StaticsMethod};
-use crate::cli::terminal::{Done, output};
-use crate::format::significant;
+use crate::cli::prelude::*;
 use crate::grip::clamped::clamped;
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::view::grip::clamped::NotHeld;
 use crate::view::statics::told::ToldStatics;
-use anyhow::{Context, ensure};
 
 /// Returns the diameter asked for, or the hardest one to hold. `None` if that part cannot be held.
 fn chosen<'g>(g: &'g Gripping, a: &Statics) -> anyhow::Result<Option<&'g DiameterRow>> {
@@ -53,7 +51,7 @@ fn check_options(a: &Statics) -> anyhow::Result<()> {
     Ok(())
 }
 
-pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
+pub(crate) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     check_options(a)?;
     let Some(row) = chosen(g, a)? else {
         return not_held(g, a);
@@ -62,26 +60,15 @@ pub(in crate::cli) fn run(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
         return not_held(g, a);
     };
     let shown = ToldStatics::round_a_part(g, row, &found);
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-            StaticsFormat::Text => {
-                write!(out, "{}", shown.text(output::width(a.output.as_deref())))?;
-            }
-        }
-        Ok(Done::Found)
-    })
+    a.put_reactions(&shown, &[])
 }
 
 /// Says why there are no forces: exit code 1.
 fn not_held(g: &Gripping, a: &Statics) -> anyhow::Result<Done> {
     let shown = NotHeld::new(g);
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv | StaticsFormat::Text => write!(out, "{}", shown.text())?,
-        }
-        Ok(Done::Nothing)
-    })
+    a.put(match a.format {
+        StaticsFormat::Json => output::json(&shown)?,
+        StaticsFormat::Csv | StaticsFormat::Text => shown.text(),
+    })?;
+    Ok(Done::Nothing)
 }

@@ -1,18 +1,13 @@
 //! `ozols draw`.
 
-use crate::cli::option::named::File;
 use crate::cli::option::request::Which;
 use crate::cli::option::variant::Chosen;
-use crate::cli::option::{Global, load, picture, variant};
-use crate::cli::terminal::{Done, output};
+use crate::cli::option::{picture, variant};
+use crate::cli::prelude::*;
 use crate::draw::{self, Drawing, Sight, Size, Subject};
-use crate::model::mechanism::StateId;
 use crate::page::moving::Moving;
 use crate::redundancy::analysis::{Method, StateAnalysis, analyse};
 use crate::view::analysis::Analysis;
-use anyhow::{Context, bail, ensure};
-use clap::{Args as ClapArgs, ValueEnum};
-use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum DrawKind {
@@ -23,7 +18,7 @@ enum DrawKind {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Draw {
+pub(crate) struct Draw {
     #[command(flatten)]
     file: File,
     /// Kind of drawing.
@@ -69,9 +64,8 @@ pub(in crate::cli) struct Draw {
     /// Width of a PNG in pixels.
     #[arg(long, value_name = "PIXELS", conflicts_with = "scale")]
     width: Option<u32>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
     #[command(flatten, next_help_heading = "The list that --variant refers to")]
     which: Which,
 }
@@ -86,26 +80,26 @@ impl Draw {
 /// Parses a side as a direction towards the reader.
 fn side(text: &str) -> Result<[f64; 3], String> {
     match text.trim() {
-        "x" => Ok([1.0, 0.0, 0.0]),
         // x to the right and z up
         "y" => Ok([0.0, -1.0, 0.0]),
-        "z" => Ok([0.0, 0.0, 1.0]),
         "iso" => Ok([1.0, 1.0, 1.0]),
-        _ => numbers(text).ok_or_else(|| {
-            "give x, y, z, iso, or three numbers that are not all zero, such as \"1,-2,0.5\""
-                .to_owned()
-        }),
+        _ => direction(text, "x, y, z, iso", "1,-2,0.5"),
     }
 }
 
 /// Parses the direction that points up.
 fn axis(text: &str) -> Result<[f64; 3], String> {
+    direction(text, "x, y, z", "0,1,1")
+}
+
+/// Parses a direction as an axis or three numbers; an error names other words and an example.
+fn direction(text: &str, words: &str, example: &str) -> Result<[f64; 3], String> {
     match text.trim() {
         "x" => Ok([1.0, 0.0, 0.0]),
         "y" => Ok([0.0, 1.0, 0.0]),
         "z" => Ok([0.0, 0.0, 1.0]),
         _ => numbers(text).ok_or_else(|| {
-            "give x, y, z, or three numbers that are not all zero, such as \"0,1,1\"".to_owned()
+            format!("give {words}, or three numbers that are not all zero, such as \"{example}\"")
         }),
     }
 }
@@ -118,7 +112,7 @@ fn numbers(text: &str) -> Option<[f64; 3]> {
     (size > 0.0 && size.is_finite()).then(|| direction.map(|x| x / size))
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
     let wanted = wanted(a)?;
     ensure!(
         a.moves()
@@ -128,14 +122,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         "--view and --up need the kinematic scheme, which has coordinates; add --kind kinematic"
     );
     let mut mechanism = load::mechanism(&a.file)?;
-    let Some(state) = mechanism.state(&a.state) else {
-        bail!(
-            "{} has no state {}; it has: {}",
-            mechanism.name,
-            a.state,
-            mechanism.states.join(", ")
-        );
-    };
+    let state = load::state(&mechanism, &a.state)?;
     let mut marks = None;
     let searched = state != StateId::FREE;
     let request = a.which.request(searched.then_some(a.state.as_str()))?;
@@ -159,10 +146,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Draw) -> anyhow::Result<Done> {
         Some(size) => picture::png(&drawing, size)?,
         None => drawing.svg.into_bytes(),
     };
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(&bytes)?;
-        Ok(Done::Found)
-    })
+    a.to.put(bytes)
 }
 
 /// Returns the drawing that is asked for.
@@ -238,8 +222,8 @@ fn moving(
 
 /// Returns the size of the PNG, if one is asked for. Reports mistakes before any work is done.
 fn wanted(a: &Draw) -> anyhow::Result<Option<Size>> {
-    output::not_to_terminal(a.output.as_deref(), "a drawing")?;
-    if !a.png && !picture::named(a.output.as_deref()) {
+    output::not_to_terminal(a.to.path(), "a drawing")?;
+    if !a.png && !picture::named(a.to.path()) {
         ensure!(
             a.scale.is_none() && a.width.is_none(),
             "--scale and --width are for PNG; add --png, or -o with a name that ends in .png (SVG scales to any size)"

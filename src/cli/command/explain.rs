@@ -2,19 +2,13 @@
 
 mod pair;
 
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::format::did_you_mean;
 use crate::model::joint_type::JointType;
 use crate::terms::{GlossaryTerm, Terms};
-use crate::view::terminal::layout::table;
-use anyhow::{bail, ensure};
-use clap::Args as ClapArgs;
-use itertools::Itertools;
-use std::io::Write;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Explain {
+pub(crate) struct Explain {
     /// Term, such as sigma, σ or redundant constraint, or joint type, such as sphere-in-cylinder [default: list all].
     #[arg(value_name = "TERM")]
     term: Vec<String>,
@@ -26,28 +20,22 @@ pub(in crate::cli) struct Explain {
 /// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;
 
-pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &Explain) -> anyhow::Result<Done> {
     let terms = Terms::builtin();
     let word = a.term.join(" ");
     if word.trim().is_empty() {
-        return output::to(None, |out| {
-            writeln!(out, "{}", all(&terms, output::width(None)))?;
-            writeln!(out, "\n{}", pair::all(output::width(None)))?;
-            writeln!(
-                out,
-                "\nozols explain TERM explains one of them, or a joint type."
-            )?;
-            Ok(Done::Found)
-        });
+        let (terms, types) = (
+            all(&terms, output::width(None)),
+            pair::all(output::width(None)),
+        );
+        let hint = "ozols explain TERM explains one of them, or a joint type.";
+        return output::put(None, format!("{terms}\n\n{types}\n\n{hint}\n"));
     }
     if let Some(joint_type) = JointType::from_name(&pair::word(&word)) {
         return pair::explain(&joint_type, a.output.as_deref());
     }
     if word == "types" {
-        return output::to(None, |out| {
-            writeln!(out, "{}", pair::all(output::width(None)))?;
-            Ok(Done::Found)
-        });
+        return output::put(None, pair::all(output::width(None)) + "\n");
     }
     ensure!(
         a.output.is_none(),
@@ -68,10 +56,7 @@ pub(in crate::cli) fn run(a: &Explain) -> anyhow::Result<Done> {
             did_you_mean::question(&names.unique().collect_vec())
         )
     };
-    output::to(None, |out| {
-        one(out, &terms, term)?;
-        Ok(Done::Found)
-    })
+    output::put(None, one(&terms, term))
 }
 
 fn all(terms: &Terms, width: Option<u16>) -> String {
@@ -80,33 +65,21 @@ fn all(terms: &Terms, width: Option<u16>) -> String {
         let also = t.also.iter().take(2).join(", ");
         vec![t.name.clone(), also, t.first_sentence().to_owned()]
     });
-    table(&["term", "also", "what it is"], rows.collect(), width)
+    table("term | also | what it is", rows, width)
 }
 
-fn one(out: &mut dyn Write, terms: &Terms, term: &GlossaryTerm) -> std::io::Result<()> {
+fn one(terms: &Terms, term: &GlossaryTerm) -> String {
     let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
-    let fill = |text: &str| {
+    let row = |head: &str, text: &str| {
         let options = textwrap::Options::new(width).subsequent_indent("           ");
-        textwrap::fill(text, options)
+        textwrap::fill(&format!("  {head:<8} {text}"), options)
     };
-    writeln!(out, "{}\n", term.name)?;
-    writeln!(out, "{}\n", textwrap::fill(&term.text, width))?;
-    if !term.also.is_empty() {
-        writeln!(
-            out,
-            "{}",
-            fill(&format!("  also     {}", term.also.join(", ")))
-        )?;
-    }
-    writeln!(
-        out,
-        "{}",
-        fill(&format!("  related  {}", term.related.join(", ")))
-    )?;
-    writeln!(out, "  see      {}", term.see)?;
-    for s in &term.source {
-        let source = terms.sources.get(s).unwrap_or(s);
-        writeln!(out, "{}", fill(&format!("  source   {source}")))?;
-    }
-    Ok(())
+    let about = textwrap::fill(&term.text, width);
+    let also = (!term.also.is_empty()).then(|| row("also", &term.also.join(", ")));
+    let related = row("related", &term.related.join(", "));
+    let see = format!("  see      {}", term.see);
+    let sources = term.source.iter();
+    let sources = sources.map(|s| row("source", terms.sources.get(s).unwrap_or(s)));
+    let rows = also.into_iter().chain([related, see]).chain(sources);
+    format!("{}\n\n{about}\n\n{}\n", term.name, rows.format("\n"))
 }

@@ -1,31 +1,23 @@
 //! `ozols export`.
 
 use crate::cli::command::types::changed;
-use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
 use crate::cli::option::request::Which;
+use crate::cli::option::variant;
 use crate::cli::option::variant::{Chosen, tell};
-use crate::cli::option::{Global, load, variant};
-use crate::cli::terminal::progress::note;
-use crate::cli::terminal::{Done, output};
-use crate::model::mechanism::Mechanism;
+use crate::cli::prelude::*;
 use crate::redundancy::release::Release;
 use crate::robots::formats::{self, Format, FormattedFile};
 use crate::robots::{self, Imported};
 use crate::view::lint::words;
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::ensure;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
 
 /// The formats of the mechanism file: TOML, which holds exact numbers, and the same as JSON.
 const TOML: &str = "toml";
 const JSON: &str = "json";
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Export {
+pub(crate) struct Export {
     /// A path, `-`, or the name of a built-in mechanism. A robot description (URDF, MJCF or SDF, by its root element) or CAD
     /// assembly (FreeCAD's .FCStd, OndselSolver's .asmt) is read according to the options below.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -42,9 +34,8 @@ pub(in crate::cli) struct Export {
     state: Option<String>,
     #[command(flatten)]
     which: Which,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    out: ToFile,
 }
 
 fn written() -> PossibleValuesParser {
@@ -52,7 +43,7 @@ fn written() -> PossibleValuesParser {
     PossibleValuesParser::new(formats::written().map(value))
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
     if formats::is_own(&a.to) {
         return own(a);
     }
@@ -78,10 +69,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Export) -> anyhow::Result<Done> {
         m = request.meant(&m, &mut note)?;
     }
     let text = text(&m, &a.to, left_behind)?;
-    output::to(a.output.as_deref(), |out| {
-        write!(out, "{text}")?;
-        Ok(Done::Found)
-    })
+    a.out.put(text)
 }
 
 /// Returns the robot description or CAD assembly that FILE names. `None` if FILE is neither.
@@ -104,15 +92,12 @@ fn imported(a: &Export) -> anyhow::Result<Option<Imported>> {
 fn mechanism_file(a: &Export, imported: &Imported) -> anyhow::Result<Done> {
     let width = output::error_width();
     output::note(&fit(&imported.report.text(&a.file), width));
-    output::to(a.output.as_deref(), |out| {
-        if a.to == TOML {
-            write!(out, "{}", imported.toml()?)?;
-        } else {
-            writeln!(out, "{:#}", imported.file.json())?;
-        }
-        Ok(Done::Found)
+    a.out.put(if a.to == TOML {
+        imported.toml()?
+    } else {
+        format!("{:#}\n", imported.file.json())
     })?;
-    if let Some(path) = &a.output {
+    if let Some(path) = a.out.path() {
         let file = path.display().to_string();
         let steps = [
             ("analyze", "its mobility and redundant constraints"),
@@ -144,18 +129,11 @@ fn own(a: &Export) -> anyhow::Result<Done> {
     };
     let told: Vec<(Release, String)> = releases.into_iter().map(|r| (r, words(m, &r))).collect();
     let written = robots::fix(&imported, &told)?;
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(&written)?;
-        Ok(Done::Found)
-    })
+    a.out.put(written)
 }
 
 /// Converts a mechanism to a format and reports what is lost, after the notes of the import.
-pub(in crate::cli) fn text(
-    m: &Mechanism,
-    to: &str,
-    left_behind: Option<String>,
-) -> anyhow::Result<String> {
+pub(crate) fn text(m: &Mechanism, to: &str, left_behind: Option<String>) -> anyhow::Result<String> {
     let FormattedFile { text, told } = formats::export(m, to)?;
     let told = left_behind.into_iter().chain(told);
     let told: String = told.map(|t| format!("  {t}\n")).collect();

@@ -1,28 +1,19 @@
 //! `ozols fix`.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::cli::command::lint;
-use crate::cli::command::types;
 use crate::cli::command::types::{TypePlan, changed};
+use crate::cli::command::{lint, types};
 use crate::cli::option::reading::{Reading, description};
 use crate::cli::option::request::Which;
-use crate::cli::option::variant::Chosen;
-use crate::cli::option::variant::tell;
-use crate::cli::terminal::progress::note;
-use crate::cli::terminal::{Done, output};
-use crate::format::plural;
-use crate::model::mechanism::Mechanism;
+use crate::cli::option::variant::{Chosen, tell};
+use crate::cli::prelude::*;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Imported};
 use crate::view::lint::{TypeChange, words};
-use crate::view::terminal::layout::fit;
-use anyhow::{Context, bail, ensure};
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Fix {
+pub(crate) struct Fix {
     /// Robot description (URDF, MJCF or SDF) or CAD assembly (FreeCAD, OndselSolver) whose joints get other types.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -40,7 +31,7 @@ pub(in crate::cli) struct Fix {
     output: Option<PathBuf>,
 }
 
-pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &Fix) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     let imported = description(&a.file, &options)?;
     let m = &imported.mechanism;
@@ -64,10 +55,7 @@ pub(in crate::cli) fn run(a: &Fix) -> anyhow::Result<Done> {
     let found = lint::look(&again.mechanism, Some(&again.origin))?;
     let (lasting, after) = (found.lasting, found.analysis);
     as_planned(a, &plan, &after, lasting)?;
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(&text)?;
-        Ok(Done::Found)
-    })?;
+    output::put(a.output.as_deref(), text)?;
     let told = match retyped {
         Some(all) => all.iter().map(TypeChange::words).collect(),
         None => releases

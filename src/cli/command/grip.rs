@@ -1,9 +1,8 @@
 //! `ozols grip`.
 
 use crate::api::MAX_DESCRIPTION_BYTES;
-use crate::cli::option::named::File;
-use crate::cli::option::{TextOrJson, load};
-use crate::cli::terminal::{Done, charts, output};
+use crate::cli::prelude::*;
+use crate::cli::terminal::charts;
 use crate::file::disk;
 use crate::file::read::workload::trajectory::trajectory;
 use crate::file::read::workload::{WorkloadFile, grip_from_bytes};
@@ -13,14 +12,9 @@ use crate::model::grip::{GripSpec, MotionStep, Toward};
 use crate::view::grip::GripReport;
 use crate::view::grip::charts::charts;
 use crate::view::grip::motion::GripMotion;
-use crate::view::grip::text;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail, ensure};
-use clap::Args as ClapArgs;
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Grip {
+pub(crate) struct Grip {
     #[command(flatten)]
     file: File,
     /// Additional acceleration of the gripper in m/s², in its axes, such as 5,0,-2 (repeatable).
@@ -39,9 +33,8 @@ pub(in crate::cli) struct Grip {
     /// Also write charts to this folder, each as SVG and CSV.
     #[arg(long, value_name = "DIR")]
     svg: Option<PathBuf>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 fn vector(text: &str) -> Result<[f64; 3], String> {
@@ -54,7 +47,7 @@ fn vector(text: &str) -> Result<[f64; 3], String> {
         .map_err(|_| "give three numbers such as 5,0,-2, none beyond 1e6".to_owned())
 }
 
-pub(in crate::cli) fn run(a: &Grip) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &Grip) -> anyhow::Result<Done> {
     let (name, bytes) = load::named(&a.file)?;
     let mut file = grip_from_bytes(&name, &bytes)?;
     add_accelerations(&mut file, a)?;
@@ -78,25 +71,14 @@ pub(in crate::cli) fn run(a: &Grip) -> anyhow::Result<Done> {
     if let Some(folder) = &a.svg {
         charts::write(folder, None, &charts(&shown), &[])?;
     }
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Json => output::json(out, &shown.json())?,
-            TextOrJson::Text => {
-                let width = output::width(a.output.as_deref());
-                write!(out, "{}", text::grip(&shown, width))?;
-                if a.svg.is_none() {
-                    let gives = "charts of the arms and the drive moment";
-                    let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
-                    write!(out, "{}", next_commands::text(&[charts], width))?;
-                }
-            }
-        }
-        Ok(if shown.holds() {
-            Done::Found
-        } else {
-            Done::Nothing
-        })
-    })
+    let gives = "charts of the arms and the drive moment";
+    let charts = NextCommand::new("grip", &a.file.file, "--svg charts", gives);
+    let next = if a.svg.is_none() { &[charts][..] } else { &[] };
+    a.to.put(match a.format {
+        TextOrJson::Json => output::json(&shown.json())?,
+        TextOrJson::Text => shown.text(a.to.width()) + &next_commands::text(next, a.to.width()),
+    })?;
+    Ok(Done::found(shown.holds()))
 }
 
 /// Adds the accelerations of the command line to the load of the file.

@@ -1,14 +1,10 @@
 //! `ozols lint`.
 
 use crate::cli::command::types;
-use crate::cli::option::named::Named;
 use crate::cli::option::reading::{Reading, description};
-use crate::cli::option::{TextOrJson, load};
-use crate::cli::terminal::colour::{Tone, toned};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::problem::ImportError;
 use crate::file::text::mechanism_from_bytes;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::motion::pose::Pose;
 use crate::rank::method::Certainty;
 use crate::redundancy::duplicate_constraints::{HeldTwice, held_twice};
@@ -16,14 +12,9 @@ use crate::redundancy::other_poses::Where;
 use crate::redundancy::release::Release;
 use crate::robots::{self, Origin};
 use crate::view::lint::{self, Lint as Found, PassedOver};
-use crate::view::terminal::layout::fit;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Lint {
+pub(crate) struct Lint {
     /// Robot descriptions (URDF, MJCF, SDF), CAD assemblies (FreeCAD, OndselSolver), or mechanism files.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, required = true)]
     files: Vec<Named>,
@@ -32,12 +23,11 @@ pub(in crate::cli) struct Lint {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextOrJson,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
-pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &Lint) -> anyhow::Result<Done> {
     let options = a.reading.options()?;
     // A file that cannot be looked at takes nothing from the others.
     let mut failed = false;
@@ -49,52 +39,46 @@ pub(in crate::cli) fn run(a: &Lint) -> anyhow::Result<Done> {
         .iter()
         .filter_map(|f| f.as_ref().err().cloned())
         .collect();
-    let width = output::width(a.output.as_deref());
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            TextOrJson::Text => {
-                for file in &all {
-                    let (text, verdict) = match file {
-                        Err(passed) => {
-                            let good = passed
-                                .rigid
-                                .then(|| ("nothing is redundant".to_owned(), Tone::Good));
-                            (passed.text(), good)
-                        }
-                        Ok(lint) => {
-                            let verdict = if lint.is_clean() {
-                                let tone = match lint.left_out {
-                                    0 => Tone::Good,
-                                    _ => Tone::Doubtful,
-                                };
-                                ("nothing is redundant".to_owned(), tone)
-                            } else {
-                                (lint.sigma(), Tone::Bad)
-                            };
-                            (lint.text(), Some(verdict))
-                        }
-                    };
-                    let text = fit(&text, width);
-                    write!(out, "{}", toned(text, a.output.as_deref(), verdict))?;
-                }
-                let mended = found
-                    .iter()
-                    .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
-                let gives = "apply the cheapest fix; all else stays unchanged";
-                let flags = a.reading.flags();
-                let steps: Vec<NextCommand> = mended
-                    .map(|l| NextCommand::mend(&l.file, &flags, gives))
-                    .collect();
-                write!(out, "{}", next_commands::text(&steps, width))?;
-            }
-            TextOrJson::Json => output::json(out, &lint::json(&found, &others))?,
-        }
-        Ok(match found.iter().all(|l| l.is_in_order()) {
-            _ if failed => Done::Partly,
-            true => Done::Found,
-            false => Done::Nothing,
-        })
+    let text = match a.format {
+        TextOrJson::Text => text(a, &all, &found),
+        TextOrJson::Json => output::json(&lint::json(&found, &others))?,
+    };
+    a.to.put(text)?;
+    Ok(match found.iter().all(|l| l.is_in_order()) {
+        _ if failed => Done::Partly,
+        in_order => Done::found(in_order),
     })
+}
+
+/// Returns a paragraph on each file, and how to fix those that can be fixed.
+fn text(a: &Lint, all: &[Result<Found, PassedOver>], found: &[&Found]) -> String {
+    let width = a.to.width();
+    let paragraph = |file: &Result<Found, PassedOver>| {
+        let (text, verdict) = match file {
+            Err(passed) => (passed.text(), passed.rigid.then_some(Tone::Good)),
+            Ok(lint) if !lint.is_clean() => (lint.text(), Some(Tone::Bad)),
+            Ok(lint) if lint.left_out > 0 => (lint.text(), Some(Tone::Doubtful)),
+            Ok(lint) => (lint.text(), Some(Tone::Good)),
+        };
+        let words = match file {
+            Ok(lint) if !lint.is_clean() => lint.sigma(),
+            _ => lint::NONE.to_owned(),
+        };
+        toned(
+            fit(&text, width),
+            a.to.path(),
+            verdict.map(|tone| (words, tone)),
+        )
+    };
+    let fixed = found
+        .iter()
+        .filter(|l| l.from_description && l.is_decided() && !l.cheapest.is_empty());
+    let gives = "apply the cheapest fix; all else stays unchanged";
+    let flags = a.reading.flags();
+    let steps = fixed
+        .map(|l| NextCommand::mend(&l.file, &flags, gives))
+        .collect_vec();
+    all.iter().map(paragraph).collect::<String>() + &next_commands::text(&steps, width)
 }
 
 /// Examines one file.
@@ -134,7 +118,7 @@ fn passed_over(file: &str, e: &anyhow::Error, failed: &mut bool) -> PassedOver {
 }
 
 /// Finds the redundant constraints of a mechanism. Drives, and joints that no format can change, stay unchanged.
-pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
+pub(crate) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Result<HeldTwice> {
     look_at(m, origin, &|r| match *r {
         Release::Freedom { joint, .. } => !is_actuated(m, origin, joint),
         Release::Coupling(_) => true,
@@ -142,12 +126,12 @@ pub(in crate::cli) fn look(m: &Mechanism, origin: Option<&Origin>) -> anyhow::Re
 }
 
 /// Returns true if a joint is a drive, or is moved by an actuator that a mechanism cannot represent.
-pub(in crate::cli) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
+pub(crate) fn is_actuated(m: &Mechanism, origin: Option<&Origin>, joint: JointId) -> bool {
     m.joints[joint].drive || origin.is_some_and(|o| o.is_actuated(joint))
 }
 
 /// Finds the redundant constraints, with only the given releases.
-pub(in crate::cli) fn look_at(
+pub(crate) fn look_at(
     m: &Mechanism,
     origin: Option<&Origin>,
     wanted: &dyn Fn(&Release) -> bool,

@@ -1,15 +1,12 @@
 //! `ozols list`.
 
 use crate::builtin;
-use crate::cli::terminal::{Done, output};
-use crate::format::csv;
-use crate::format::did_you_mean;
-use crate::view::terminal::layout::{fit, table};
-use clap::{Args as ClapArgs, ValueEnum};
+use crate::cli::prelude::*;
+use crate::format::{csv, did_you_mean};
 use serde::{Deserialize, Serialize};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct List {
+pub(crate) struct List {
     /// List only mechanisms with all of these words in name, family or description.
     #[arg(value_name = "WORD")]
     words: Vec<String>,
@@ -48,7 +45,7 @@ struct ListRow {
 /// Minimum width of a column of descriptions.
 const NARROWEST: usize = 16;
 
-pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
+pub(crate) fn run(a: &List) -> anyhow::Result<Done> {
     let rows = wanted(a)?;
     if rows.is_empty() {
         let hint = did_you_mean::hint(&a.words.join("-"), builtin::names());
@@ -60,19 +57,13 @@ pub(in crate::cli) fn run(a: &List) -> anyhow::Result<Done> {
     }
     match a.format {
         ListFormat::Text => text(a, rows),
-        ListFormat::Json => output::to(None, |out| {
-            output::json(out, &rows)?;
-            Ok(Done::Found)
-        }),
-        ListFormat::Csv => output::to(None, |out| {
-            write!(out, "{}", csv::records(rows))?;
-            Ok(Done::Found)
-        }),
+        ListFormat::Json => output::put(None, output::json(&rows)?),
+        ListFormat::Csv => output::put(None, csv::records(rows)),
     }
 }
 
 /// Lists all of them for people.
-pub(in crate::cli) fn all() -> anyhow::Result<Done> {
+pub(crate) fn all() -> anyhow::Result<Done> {
     run(&List {
         words: Vec::new(),
         format: ListFormat::Text,
@@ -80,7 +71,7 @@ pub(in crate::cli) fn all() -> anyhow::Result<Done> {
 }
 
 fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
-    let header = ["mechanism", "state", "n", "p", "k", "f", "W", "σ"];
+    let header = "mechanism | state | n | p | k | f | W | σ";
     let (mut cells, mut notes) = (Vec::new(), Vec::new());
     let (mut family, mut name) = (String::new(), String::new());
     for r in rows {
@@ -102,7 +93,7 @@ fn text(a: &List, rows: Vec<ListRow>) -> anyhow::Result<Done> {
         cells.push(row);
         notes.push((heading, if first { r.description } else { String::new() }));
     }
-    let table = table(&header, cells, None);
+    let table = table(header, cells, None);
     let width = output::width(None).map(usize::from);
     output::to(None, |out| {
         let lines: Vec<&str> = table.lines().collect();

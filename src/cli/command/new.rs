@@ -2,18 +2,13 @@
 
 use crate::builtin;
 use crate::cli::command::list;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::template;
 use crate::model::mechanism::Role;
-use anyhow::{Context, bail};
-use clap::{Args as ClapArgs, ValueHint};
-use itertools::Itertools;
 use std::io::{BufRead, IsTerminal};
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct New {
+pub(crate) struct New {
     /// File to write, with the ending .toml; the mechanism is named after it. If omitted, questions lead to a template.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Option<PathBuf>,
@@ -25,7 +20,7 @@ pub(in crate::cli) struct New {
     force: bool,
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &New) -> anyhow::Result<Done> {
     if let Some(file) = &a.file {
         let from = a.from.as_deref().unwrap_or("four-bar");
         return write(args, file, from, a.force);
@@ -60,20 +55,13 @@ fn write(args: &Global, file: &Path, from: &str, force: bool) -> anyhow::Result<
     }
     let text = template::commented(text, from, &name)
         .with_context(|| format!("built-in mechanism {from}"))?;
-    output::to(Some(file), |out| {
-        write!(out, "{text}")?;
-        Ok(Done::Found)
-    })?;
+    output::put(Some(file), text)?;
     if args.quiet {
         return Ok(Done::Found);
     }
-    output::to(None, |out| {
-        writeln!(out, "{shown}: the built-in {from} with comments")?;
-        writeln!(out, "  ozols check {shown}")?;
-        writeln!(out, "  ozols analyze {shown}")?;
-        writeln!(out, "  ozols search {shown}")?;
-        Ok(Done::Found)
-    })
+    let next = ["check", "analyze", "search"].map(|c| format!("  ozols {c} {shown}\n"));
+    let head = format!("{shown}: the built-in {from} with comments\n");
+    output::put(None, head + &next.concat())
 }
 
 /// The questions, in the order of the answers that each template has.

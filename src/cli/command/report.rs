@@ -1,11 +1,8 @@
 //! `ozols report`.
 
-use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::progress::{SearchWatch, note};
-use crate::cli::terminal::{Done, interrupt, output};
-use crate::model::mechanism::{Mechanism, StateId};
+use crate::cli::prelude::*;
+use crate::cli::terminal::progress::SearchWatch;
 use crate::page::scenes::scenes;
 use crate::page::{Commands, Page, Redesigns, html};
 use crate::redundancy::analysis::{Method, analyse};
@@ -15,14 +12,10 @@ use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Request};
 use crate::view::search::nothing_found::wider_commands;
 use crate::view::terminal::next_commands::{file_name, flags, stem};
-use anyhow::ensure;
-use clap::Args as ClapArgs;
-use itertools::Itertools;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Report {
+pub(crate) struct Report {
     #[command(flatten)]
     file: File,
     /// Number of best variants on the page, at most 10000.
@@ -30,16 +23,15 @@ pub(in crate::cli) struct Report {
     top: usize,
     #[command(flatten)]
     checked: Checked,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 /// Maximum number of variants on a page.
 const MOST: usize = 10_000;
 
-pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
-    output::not_to_terminal(a.output.as_deref(), "a page")?;
+pub(crate) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
+    output::not_to_terminal(a.to.path(), "a page")?;
     let request = asked(args, a)?;
     let written = load::mechanism(&a.file)?;
     // An unknown state is a mistake; geometry that cannot be searched is not.
@@ -64,10 +56,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Report) -> anyhow::Result<Done> {
                 ..commands(&mechanism, a, &request)
             },
         })?;
-        output::to(a.output.as_deref(), |out| {
-            out.write_all(page.as_bytes())?;
-            Ok(Done::Found)
-        })
+        a.to.put(page)
     };
     // What is known of the mechanism as it is stands, even where its coordinates do not allow a search.
     let (conditions, measured) = match conditions {
@@ -119,32 +108,27 @@ fn redesigns<'o>(found: &'o Outcome, mut given: Variants<'o>, remarks: Remarks) 
 fn commands(mechanism: &Mechanism, a: &Report, request: &Request) -> Commands {
     let file = a.file.typed();
     let more = list_options(mechanism, a, request);
-    let row = |what: &str, command: String| (what.to_owned(), command);
-    let named = |ending: &str| file_name(&mechanism.name, ending);
+    let [sdf, svg] = ["sdf", "svg"].map(|ending| file_name(&mechanism.name, ending));
     let longer = joined(&[&flags(mechanism, request), "{}", "--top 10000"]);
+    let rows = [
+        ("This page", format!("report {file} {more} -o report.html")),
+        ("Original mechanism", format!("analyze {file}")),
+        (
+            "The variants, as text or data",
+            format!("search {file} {more} --format text|json|csv"),
+        ),
+        (
+            "The mechanism for other programs",
+            format!("export {file} --to sdf -o {sdf}"),
+        ),
+        (
+            "A drawing",
+            format!("draw {file} --kind scheme|kinematic -o {svg}"),
+        ),
+    ];
+    let rows = rows.map(|(what, command)| (what.to_owned(), format!("ozols {command}")));
     Commands {
-        rows: vec![
-            row(
-                "This page",
-                format!("ozols report {file} {more} -o report.html"),
-            ),
-            row("Original mechanism", format!("ozols analyze {file}")),
-            row(
-                "The variants, as text or data",
-                format!("ozols search {file} {more} --format text|json|csv"),
-            ),
-            row(
-                "The mechanism for other programs",
-                format!("ozols export {file} --to sdf -o {}", named("sdf")),
-            ),
-            row(
-                "A drawing",
-                format!(
-                    "ozols draw {file} --kind scheme|kinematic -o {}",
-                    named("svg")
-                ),
-            ),
-        ],
+        rows: rows.to_vec(),
         variant: of_one(mechanism, &file, request, "variant"),
         idea: of_one(mechanism, &file, request, "idea"),
         longer: format!("ozols report {file} {longer} -o report.html"),

@@ -1,21 +1,15 @@
 //! `ozols search`.
 
-use crate::cli::option::named::File;
 use crate::cli::option::request::Checked;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::colour::{Tone, toned};
+use crate::cli::prelude::*;
 use crate::cli::terminal::progress::SearchWatch;
-use crate::cli::terminal::{Done, interrupt, machine, memory, output};
+use crate::cli::terminal::{machine, memory};
 use crate::format::{duration, grouped};
 use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::request::{List, Method, Request};
-use crate::view::search::csv;
-use crate::view::search::json;
-use crate::view::search::text;
-use clap::{Args as ClapArgs, ValueEnum};
+use crate::view::search::{csv, json, text};
 use num_traits::Zero;
-use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum SearchFormat {
@@ -37,7 +31,7 @@ enum SearchMethod {
 
 #[derive(Debug, ClapArgs)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
-pub(in crate::cli) struct Search {
+pub(crate) struct Search {
     #[command(flatten)]
     file: File,
     /// Number of best variants to list.
@@ -73,9 +67,8 @@ pub(in crate::cli) struct Search {
     /// End a CSV that is not the whole list with a comment line, `# ...`; without this option the note goes to standard error.
     #[arg(long)]
     comment: bool,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 /// Length of a list that people read.
@@ -113,7 +106,7 @@ impl Search {
     }
 }
 
-pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
     let begun = machine::clock();
     let seconds = || (machine::clock() - begun).as_secs_f64();
     let mechanism = load::mechanism(&a.file)?;
@@ -124,25 +117,20 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
         SearchFormat::Text | SearchFormat::Json => outcome.remarks(&interrupt::pending)?,
         SearchFormat::Jsonl | SearchFormat::Csv => Remarks::default(),
     };
-    let done = output::to(a.output.as_deref(), |out| {
+    let done = output::to(a.to.path(), |out| {
         let variants = outcome.variants_unless(&interrupt::pending);
         match a.format {
             SearchFormat::Text => {
-                let width = output::width(a.output.as_deref());
+                let width = a.to.width();
                 let file = &a.file.file;
                 if request.list == List::All {
                     text::write(out, &outcome, variants, remarks, file, width, a.verbose)?;
                 } else {
-                    let mut text = Vec::new();
-                    text::write(
-                        &mut text, &outcome, variants, remarks, file, width, a.verbose,
-                    )?;
+                    let (mut text, long) = (Vec::new(), a.verbose);
+                    text::write(&mut text, &outcome, variants, remarks, file, width, long)?;
                     let text = a.file.with_loops(String::from_utf8(text)?);
-                    write!(
-                        out,
-                        "{}",
-                        toned(text, a.output.as_deref(), [verdict(&outcome)])
-                    )?;
+                    let text = toned(text, a.to.path(), [verdict(&outcome)]);
+                    out.write_all(text.as_bytes())?;
                 }
             }
             SearchFormat::Json => {
@@ -160,7 +148,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Search) -> anyhow::Result<Done> {
             }
         }
         let none = outcome.listed_counts().total.is_zero() && !outcome.admissible_may_be_more();
-        Ok(if none { Done::Nothing } else { Done::Found })
+        Ok(Done::found(!none))
     })?;
     // The output itself is the same every time.
     if a.format == SearchFormat::Text && !args.quiet {

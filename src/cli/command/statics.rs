@@ -1,15 +1,13 @@
 //! `ozols statics`.
 
-pub(in crate::cli) mod args;
+pub(crate) mod args;
 
 use crate::cli::command::clamped;
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, charts, output};
+use crate::cli::prelude::*;
+use crate::cli::terminal::charts;
 use crate::file::read::workload::motion::stroke;
 use crate::grip::jaw_loads::{Gripping, JawError};
 use crate::model::loads::Stroke;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::contour_group::stability::{GROUPS, study};
 use crate::statics::cycle;
@@ -17,36 +15,24 @@ use crate::statics::reactions::Unsolved;
 use crate::statics::reactions::contact::object_at;
 use crate::statics::solve::{Model, SolvedReactions, StaticsError, solve};
 use crate::view::grip::clamped::NotHeld;
+use crate::view::statics::force_plans::plans;
 use crate::view::statics::told::{ToldReactions, ToldStatics};
-use crate::view::statics::{Structures, charts as drawn, force_plans::plans, text};
-use crate::view::terminal::layout::table;
-use crate::view::terminal::next_commands::{self, NextCommand};
-use anyhow::{Context, bail};
+use crate::view::statics::{Structures, charts as drawn};
 use args::{Statics, StaticsFormat, StaticsMethod};
-use std::path::Path;
 
-pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
+pub(crate) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let file = a.file.clone().unwrap_or_else(|| "parallel-shears".into());
     let loops = a.loops.clone();
     let mut m = load::mechanism(&File { file, loops })?;
     if a.planar {
         load::put_in_plane(&mut m);
     }
-    let Some(state) = m.state(&a.state) else {
-        bail!(
-            "{} has no state {}; it has: {}",
-            m.name,
-            a.state,
-            m.states.join(", ")
-        )
-    };
+    let state = load::state(&m, &a.state)?;
     match Gripping::new(&m, state) {
         // The nominal part is out of reach, so nothing is held.
         Err(JawError::Nominal(why)) => {
-            return output::to(a.output.as_deref(), |out| {
-                writeln!(out, "{}: the part cannot be held: {why}", m.name)?;
-                Ok(Done::Nothing)
-            });
+            a.put(format!("{}: the part cannot be held: {why}\n", m.name))?;
+            return Ok(Done::Nothing);
         }
         found => match found? {
             Some(gripping) if a.groups => return groups(&gripping.mechanism, state, a),
@@ -94,11 +80,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     }
     write(&m, &ToldStatics::new(&m, state, stroke, &found, methods), a)?;
     // A stroke that could not be finished is no success.
-    Ok(if found.complete() {
-        Done::Found
-    } else {
-        Done::Nothing
-    })
+    Ok(Done::found(found.complete()))
 }
 
 /// Returns the model that the options ask for; `own` is true if the method solves groups in the plane by itself.
@@ -122,17 +104,13 @@ fn model(m: &Mechanism, state: StateId, own: bool, a: &Statics) -> anyhow::Resul
 
 /// Says why nothing holds the mechanism: exit code 1.
 fn loose(m: &Mechanism, state: StateId, why: &Unsolved, a: &Statics) -> anyhow::Result<Done> {
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => {
-                output::json(out, &NotHeld::because(m, state, &why.to_string()))?
-            }
-            StaticsFormat::Csv | StaticsFormat::Text => {
-                writeln!(out, "{}, state {}: {why}", m.name, a.state)?;
-            }
+    a.put(match a.format {
+        StaticsFormat::Json => output::json(&NotHeld::because(m, state, &why.to_string()))?,
+        StaticsFormat::Csv | StaticsFormat::Text => {
+            format!("{}, state {}: {why}\n", m.name, a.state)
         }
-        Ok(Done::Nothing)
-    })
+    })?;
+    Ok(Done::Nothing)
 }
 
 /// Writes what was found, with the charts where they are asked for.
@@ -148,19 +126,7 @@ fn write(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> anyhow::Result<
         let plans: Vec<charts::ChartDrawing> = plans.collect();
         charts::write(folder, Some(&m.name), &drawn::cycle(s), &plans)?;
     }
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, shown)?,
-            StaticsFormat::Csv => write!(out, "{}", shown.csv())?,
-            StaticsFormat::Text => {
-                let width = output::width(a.output.as_deref());
-                write!(out, "{}", shown.text(width))?;
-                let steps = next_steps(m, shown, a);
-                write!(out, "{}", next_commands::text(&steps, width))?;
-            }
-        }
-        Ok(Done::Found)
-    })?;
+    a.put_reactions(shown, &next_steps(m, shown, a))?;
     Ok(())
 }
 
@@ -183,7 +149,7 @@ fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCo
             let charts = a.svg.is_none().then_some(charts);
             charts.into_iter().chain([all]).collect()
         }
-        ToldReactions::Pose(s) if s.unique => vec![next(
+        ToldReactions::Pose(s) if s.is_unique() => vec![next(
             "statics",
             "--spatial --format csv -o reactions.csv",
             "the components of every joint's reaction",
@@ -199,22 +165,17 @@ fn next_steps(m: &Mechanism, shown: &ToldStatics<'_>, a: &Statics) -> Vec<NextCo
 
 fn groups(m: &Mechanism, state: StateId, a: &Statics) -> anyhow::Result<Done> {
     let (planar, found) = cycle::structures(m, state)?;
-    let shown = Structures::new(&m.name, &planar, &found);
-    output::to(a.output.as_deref(), |out| {
-        match a.format {
-            StaticsFormat::Json => output::json(out, &shown)?,
-            StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
-            StaticsFormat::Text => {
-                let width = output::width(a.output.as_deref());
-                write!(out, "{}", text::structures(&shown, width))?;
-            }
-        }
-        Ok(if found.iter().any(|x| x.found.is_ok()) {
-            Done::Found
-        } else {
-            Done::Nothing
-        })
-    })
+    let shown = Structures {
+        mechanism: &m.name,
+        planar: &planar,
+        found: &found,
+    };
+    a.put(match a.format {
+        StaticsFormat::Json => output::json(&shown.json())?,
+        StaticsFormat::Csv => bail!("--groups has no CSV; use --format json"),
+        StaticsFormat::Text => shown.text(output::width(a.output.as_deref())),
+    })?;
+    Ok(Done::found(found.iter().any(|x| x.found.is_ok())))
 }
 
 fn stability(
@@ -235,21 +196,13 @@ fn stability(
     let all: Vec<drawn::Named> = found.iter().map(|(f, s)| drawn::stability(*f, s)).collect();
     charts::write(folder, Some("Stability of the δ-point method"), &all, &[])?;
     let rows = found.iter().flat_map(|(f, s)| drawn::stability_rows(*f, s));
-    output::to(None, |out| {
-        writeln!(
-            out,
-            "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n"
-        )?;
-        let header = [
-            "failure", "figure", "method", "1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15",
-        ];
-        let table = table(&header, rows.collect(), output::width(None));
-        writeln!(out, "{table}\n")?;
-        writeln!(
-            out,
-            "Charts and tables: {}",
-            folder.join("index.html").display()
-        )?;
-        Ok(Done::Found)
-    })
+    let heads = "failure | figure | method | 1 | 1e-3 | 1e-6 | 1e-9 | 1e-12 | 1e-15";
+    let table = table(heads, rows, output::width(None));
+    let index = folder.join("index.html");
+    let text = format!(
+        "Relative error against exact arithmetic by distance from each failure, median of {GROUPS} groups\n\n{table}\n\n\
+         Charts and tables: {}\n",
+        index.display()
+    );
+    output::put(None, text)
 }

@@ -1,20 +1,15 @@
 //! `ozols studio`.
 
 use crate::api::{self, MAX_DESCRIPTION_BYTES};
-use crate::builtin;
-use crate::cli::option::named::{Loops, Named};
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, output, spinner};
-use crate::robots;
+use crate::cli::prelude::*;
+use crate::cli::terminal::spinner;
 use crate::score::request::Request;
 use crate::studio::{Opening, Studio};
-use anyhow::{Context, bail, ensure};
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
+use crate::{builtin, robots};
 use std::process::{Command, Stdio};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct StudioArgs {
+pub(crate) struct StudioArgs {
     /// File to work on (a new one must end in .toml), or name of a built-in mechanism to start from [default: an empty sheet].
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: Option<Named>,
@@ -58,7 +53,7 @@ fn opening(file: Option<&Named>, loops: &Loops) -> anyhow::Result<Opening> {
     bail!(load::unknown(file))
 }
 
-pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
+pub(crate) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Done> {
     let opening = opening(a.file.as_ref(), &a.loops)?;
     let request = Request {
         seed: global.seed,
@@ -70,10 +65,7 @@ pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Don
     })?;
     let address = studio.address();
     spinner::rest();
-    output::to(None, |out| {
-        writeln!(out, "{address}")?;
-        Ok(Done::Found)
-    })?;
+    output::put(None, format!("{address}\n"))?;
     if !a.no_open && !shown(&address) {
         output::note("no browser could be started; open the address above in one\n");
     }
@@ -89,7 +81,7 @@ pub(in crate::cli) fn run(global: &Global, a: &StudioArgs) -> anyhow::Result<Don
 }
 
 /// Returns true if a browser has a screen to open on.
-pub(in crate::cli) fn has_display() -> bool {
+pub(crate) fn has_display() -> bool {
     let is_set = |name| std::env::var_os(name).is_some_and(|v| !v.is_empty());
     cfg!(any(target_os = "macos", windows)) || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
 }

@@ -1,8 +1,8 @@
 //! Joints of a CAD assembly that need another type, found by the search.
 
 use crate::cli::option::variant;
+use crate::cli::prelude::*;
 use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::release::Release;
 use crate::robots::{Origin, releases};
 use crate::score::request::Request;
@@ -17,14 +17,14 @@ const NODES: usize = 100_000;
 const NUMERIC: usize = 2000;
 
 /// The changes to make, and the W and σ that they should give.
-pub(in crate::cli) struct TypePlan {
-    pub(in crate::cli) releases: Vec<Release>,
-    pub(in crate::cli) mobility: usize,
-    pub(in crate::cli) redundant: usize,
+pub(crate) struct TypePlan {
+    pub(crate) releases: Vec<Release>,
+    pub(crate) mobility: usize,
+    pub(crate) redundant: usize,
 }
 
 /// Returns the changes of variant `k` of a search.
-pub(in crate::cli) fn changed(
+pub(crate) fn changed(
     m: &Mechanism,
     request: Request,
     k: usize,
@@ -47,7 +47,7 @@ pub(in crate::cli) fn changed(
 }
 
 /// Returns the first idea of the search, or `None` if it finds none.
-pub(in crate::cli) fn first(m: &Mechanism, request: Request, tell: fn(Event)) -> Option<TypePlan> {
+pub(crate) fn first(m: &Mechanism, request: Request, tell: fn(Event)) -> Option<TypePlan> {
     let request = Request {
         distinct: true,
         ..request
@@ -58,7 +58,7 @@ pub(in crate::cli) fn first(m: &Mechanism, request: Request, tell: fn(Event)) ->
 
 /// Returns the joints to change so that no constraint is redundant, and W after that. `None` if no choice of types achieves it,
 /// or the assembly is large. `exact` is true if ranks are exact.
-pub(in crate::cli) fn changes(
+pub(crate) fn changes(
     m: &Mechanism,
     origin: &Origin,
     exact: bool,
@@ -77,7 +77,7 @@ pub(in crate::cli) fn changes(
 }
 
 /// Returns the joint types of an assembly after releases. `None` if the mechanism is not an assembly, or has no such types.
-pub(in crate::cli) fn named(
+pub(crate) fn named(
     m: &Mechanism,
     origin: &Origin,
     releases: &[Release],

@@ -1,22 +1,15 @@
 //! `ozols verify`, and the certificates that `ozols analyze` writes for it.
 
-use crate::cli::option::named::File;
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::file::disk;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::exact::certificate::{certify, matrix, number_field};
 use crate::redundancy::analysis::StateAnalysis;
 use crate::verify::certificate::{CertificateFile, FORMAT, Without};
 use crate::verify::check;
-use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
 use std::io::Write;
-use std::path::Path;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Verify {
+pub(crate) struct Verify {
     #[command(flatten)]
     file: File,
     /// Certificates, as written by `ozols analyze FILE --certificate CERTIFICATES`.
@@ -32,7 +25,7 @@ const MOST: usize = 64 << 20;
 
 /// Writes a certificate for each state that has one. A certificate proves the rank as written, so there is none if another
 /// geometry was analysed.
-pub(in crate::cli) fn write(
+pub(crate) fn write(
     path: &Path,
     m: &Mechanism,
     states: &[StateId],
@@ -70,15 +63,11 @@ pub(in crate::cli) fn write(
             }
         }
     }
-    output::to(Some(path), |out| {
-        serde_json::to_writer(&mut *out, &file)?;
-        writeln!(out)?;
-        Ok(Done::Found)
-    })?;
+    output::put(Some(path), serde_json::to_string(&file)? + "\n")?;
     Ok(())
 }
 
-pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
+pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file)?;
     if a.planar {
         load::put_in_plane(&mut m);
@@ -88,11 +77,7 @@ pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
         disk::at_most(&a.certificates, MOST).with_context(|| format!("cannot read {name}"))?;
     let file = CertificateFile::read(&bytes).with_context(|| format!("cannot read {name}"))?;
     let mut lines = Vec::new();
-    let mut done = if file.certificates.is_empty() {
-        Done::Nothing
-    } else {
-        Done::Found
-    };
+    let mut done = Done::found(!file.certificates.is_empty());
     for certificate in &file.certificates {
         let Some(state) = m.state(&certificate.state) else {
             bail!(
@@ -124,10 +109,6 @@ pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
             m.name
         ));
     }
-    output::to(None, |out| {
-        for line in lines {
-            writeln!(out, "{line}")?;
-        }
-        Ok(done)
-    })
+    output::put(None, lines.join("\n") + "\n")?;
+    Ok(done)
 }

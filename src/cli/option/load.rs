@@ -10,14 +10,14 @@ use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
 use crate::format::did_you_mean;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::Coupling;
-use crate::model::mechanism::{Mechanism, Mode};
+use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::robots;
-use anyhow::{bail, ensure};
+use anyhow::{Context, bail, ensure};
 use itertools::Itertools;
 use std::io::Read;
 
 /// Reads the mechanism that an argument names. A file wins over a built-in mechanism of the same name.
-pub(in crate::cli) fn mechanism(file: &File) -> anyhow::Result<Mechanism> {
+pub(crate) fn mechanism(file: &File) -> anyhow::Result<Mechanism> {
     if let Some(imported) = imported(file)? {
         return Ok(imported.mechanism);
     }
@@ -25,13 +25,13 @@ pub(in crate::cli) fn mechanism(file: &File) -> anyhow::Result<Mechanism> {
 }
 
 /// Returns the mechanism that a mechanism file describes.
-pub(in crate::cli) fn written(file: &Named) -> anyhow::Result<Mechanism> {
+pub(crate) fn written(file: &Named) -> anyhow::Result<Mechanism> {
     let (name, bytes) = plain(file)?;
     Ok(mechanism_from_bytes(&name, &bytes)?)
 }
 
 /// Returns whether an argument names a robot description or a CAD assembly, by its ending or by what is in it.
-pub(in crate::cli) fn is_described(file: &Named) -> anyhow::Result<bool> {
+pub(crate) fn is_described(file: &Named) -> anyhow::Result<bool> {
     let path = file.path();
     if !path.is_file() {
         return Ok(false);
@@ -41,10 +41,7 @@ pub(in crate::cli) fn is_described(file: &Named) -> anyhow::Result<bool> {
 }
 
 /// Reads each of several files. A problem with one is reported and does not affect the others. Returns true if all could
-pub(in crate::cli) fn each<'a>(
-    files: &'a [Named],
-    loops: &Loops,
-) -> (Vec<(&'a Named, Mechanism)>, bool) {
+pub(crate) fn each<'a>(files: &'a [Named], loops: &Loops) -> (Vec<(&'a Named, Mechanism)>, bool) {
     let mut all = Vec::new();
     for name in files {
         let file = File {
@@ -62,7 +59,7 @@ pub(in crate::cli) fn each<'a>(
 
 /// Returns the name for messages, and the bytes of the mechanism file that an argument names or that is converted from its
 /// description.
-pub(in crate::cli) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
+pub(crate) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
     match imported(file)? {
         Some(imported) => {
             let text = imported.toml()?;
@@ -73,7 +70,7 @@ pub(in crate::cli) fn named(file: &File) -> anyhow::Result<(String, Vec<u8>)> {
 }
 
 /// Returns the same for a file that is not a robot description or assembly.
-pub(in crate::cli) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
+pub(crate) fn plain(file: &Named) -> anyhow::Result<(String, Vec<u8>)> {
     if &**file == "-" {
         kept::keep_standard_input()?;
         let mut bytes = Vec::new();
@@ -121,15 +118,27 @@ fn imported(file: &File) -> anyhow::Result<Option<robots::Imported>> {
 }
 
 /// Says what is doubtful in a description.
-pub(in crate::cli) fn tell_doubts(file: &Named, imported: &robots::Imported) {
+pub(crate) fn tell_doubts(file: &Named, imported: &robots::Imported) {
     let doubts = imported.report.doubts();
     if !doubts.is_empty() {
         crate::cli::terminal::output::note(&format!("{file}: {}\n{doubts}", imported.format.name));
     }
 }
 
+/// Returns the state that an option names.
+pub(crate) fn state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
+    let known = || {
+        format!(
+            "{} has no state {name}; it has: {}",
+            m.name,
+            m.states.join(", ")
+        )
+    };
+    m.state(name).with_context(known)
+}
+
 /// Models a mechanism in the plane of x and y. Couplings of freedoms out of the plane are omitted and reported.
-pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) {
+pub(crate) fn put_in_plane(mechanism: &mut Mechanism) {
     mechanism.mode = Mode::Planar {
         normal: [0, 0, 1].map(Expr::from),
     };
@@ -150,7 +159,7 @@ pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) {
 }
 
 /// Returns the message for a name that is neither a regular file nor a built-in mechanism.
-pub(in crate::cli) fn unknown(file: &Named) -> String {
+pub(crate) fn unknown(file: &Named) -> String {
     match std::fs::metadata(file.path()) {
         Ok(m) if m.is_dir() => return format!("{file} is a folder; name a file in it"),
         Ok(m) if !m.is_file() => {
@@ -165,7 +174,7 @@ pub(in crate::cli) fn unknown(file: &Named) -> String {
 }
 
 /// Returns the message for a name that is not a built-in mechanism, if a file is not allowed.
-pub(in crate::cli) fn no_built_in(name: &str) -> String {
+pub(crate) fn no_built_in(name: &str) -> String {
     let hint = did_you_mean::hint(name, builtin::names());
     format!("{name} is not a built-in mechanism{hint}; `ozols list` shows them")
 }

@@ -12,14 +12,14 @@ use std::path::{Path, PathBuf};
 
 /// A path, `-`, or the name of a built-in mechanism. As text, invalid characters are replaced.
 #[derive(Debug, Clone)]
-pub(in crate::cli) struct Named {
+pub(crate) struct Named {
     typed: OsString,
     text: String,
 }
 
 impl Named {
     /// Returns the argument as a path.
-    pub(in crate::cli) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         Path::new(&self.typed)
     }
 }
@@ -52,24 +52,24 @@ impl fmt::Display for Named {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct File {
+pub(crate) struct File {
     /// Path, `-`, or name of a built-in mechanism.
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: Named,
+    pub(crate) file: Named,
     #[command(flatten)]
-    pub(in crate::cli) loops: Loops,
+    pub(crate) loops: Loops,
 }
 
 impl File {
     /// Returns the file and its loops as they are typed.
-    pub(in crate::cli) fn typed(&self) -> String {
+    pub(crate) fn typed(&self) -> String {
         let side = self.loops.path.iter();
         let side = side.map(|p| format!(" --loops {}", word(&p.display().to_string())));
         word(&self.file) + &side.collect::<String>()
     }
 
     /// Returns a text whose commands about the file read its loops, too.
-    pub(in crate::cli) fn with_loops(&self, text: String) -> String {
+    pub(crate) fn with_loops(&self, text: String) -> String {
         let (file, typed) = (word(&self.file), self.typed());
         let line = |l: &str| {
             if l.trim_start().starts_with("ozols ") {
@@ -84,11 +84,11 @@ impl File {
 
 /// The file of loop closures of a robot description: the same option for every command that takes a FILE.
 #[derive(Debug, Clone, Default, ClapArgs)]
-pub(in crate::cli) struct Loops {
+pub(crate) struct Loops {
     /// File of loop closures for a robot description (YAML, JSON or TOML): [[loop]] with a, b and type; robot.yaml of
     /// example-parallel-robots; Drake's list of ball constraints.
     #[arg(long = "loops", value_name = "SIDE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) path: Option<PathBuf>,
+    pub(crate) path: Option<PathBuf>,
 }
 
 impl Loops {
@@ -96,7 +96,7 @@ impl Loops {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
-    pub(in crate::cli) fn options(&self) -> anyhow::Result<Options> {
+    pub(crate) fn options(&self) -> anyhow::Result<Options> {
         let mut options = Options::default();
         if let Some(path) = &self.path {
             output::kept::keep(path);

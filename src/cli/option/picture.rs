@@ -5,16 +5,16 @@ use anyhow::ensure;
 use std::path::Path;
 
 /// Pixels of a PNG per pixel of the drawing, by default.
-pub(in crate::cli) const SCALE: f64 = 2.0;
+pub(crate) const SCALE: f64 = 2.0;
 
 /// Returns true if the name of a file ends in .png.
-pub(in crate::cli) fn named(path: Option<&Path>) -> bool {
+pub(crate) fn named(path: Option<&Path>) -> bool {
     let end = path.and_then(Path::extension);
     end.is_some_and(|e| e.eq_ignore_ascii_case("png"))
 }
 
 /// Refuses PNG where this build makes none.
-pub(in crate::cli) fn there() -> anyhow::Result<()> {
+pub(crate) fn there() -> anyhow::Result<()> {
     ensure!(
         cfg!(feature = "png"),
         "this ozols was built without PNG; build it with `cargo build --release --features png`, \
@@ -25,7 +25,7 @@ pub(in crate::cli) fn there() -> anyhow::Result<()> {
 
 /// Renders a drawing as PNG; reports characters that no font has.
 #[cfg(feature = "png")]
-pub(in crate::cli) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
+pub(crate) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     let picture = crate::draw::png::png(drawing, size)?;
     if !picture.missing.is_empty() {
         let missing: String = picture.missing.iter().collect();
@@ -38,7 +38,7 @@ pub(in crate::cli) fn png(drawing: &Drawing, size: Size) -> anyhow::Result<Vec<u
 
 /// Returns an error, because this build has no PNG.
 #[cfg(not(feature = "png"))]
-pub(in crate::cli) fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
+pub(crate) fn png(_: &Drawing, size: Size) -> anyhow::Result<Vec<u8>> {
     // `there` has refused it
     anyhow::bail!("built without PNG: {size:?}")
 }

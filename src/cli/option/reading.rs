@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// Options for reading a description, the same for every command.
 #[derive(Debug, ClapArgs)]
 #[command(next_help_heading = "Reading a description")]
-pub(in crate::cli) struct Reading {
+pub(crate) struct Reading {
     #[command(flatten)]
     loops: Loops,
     /// Value of a joint in radians or metres: elbow=0.3 (repeatable); several with commas for joints of several freedoms. Loops
@@ -46,7 +46,7 @@ pub(in crate::cli) struct Reading {
 
 impl Reading {
     /// Returns the options of the import.
-    pub(in crate::cli) fn options(&self) -> anyhow::Result<Options> {
+    pub(crate) fn options(&self) -> anyhow::Result<Options> {
         let mut options = Options {
             floating: self.floating,
             assemble: self.assemble,
@@ -64,7 +64,7 @@ impl Reading {
     }
 
     /// Returns the options as they are typed.
-    pub(in crate::cli) fn flags(&self) -> String {
+    pub(crate) fn flags(&self) -> String {
         let path = |p: &PathBuf| p.display().to_string();
         let valued = [
             ("--loops", self.loops.path.iter().map(path).collect()),
@@ -105,10 +105,7 @@ fn pose(text: &str) -> anyhow::Result<(String, Vec<f64>)> {
 }
 
 /// Returns the mechanism of a description, with the report on it.
-pub(in crate::cli) fn description(
-    path: &Path,
-    options: &Options,
-) -> anyhow::Result<robots::Imported> {
+pub(crate) fn description(path: &Path, options: &Options) -> anyhow::Result<robots::Imported> {
     ensure!(
         path.is_file(),
         "{} is not a file; give the path of a URDF, MJCF, SDF, FreeCAD or OndselSolver file",

@@ -5,13 +5,15 @@ use crate::cli::terminal::memory;
 use crate::file::text::{MAX_BYTES, text_of};
 use crate::model::ranking::Term;
 use crate::score::request::words::weighted_term;
-use crate::score::request::{self, CostFile, Inserts, JointOptions, Request};
+use crate::score::request::{CostFile, Inserts, JointOptions, Request};
 use crate::search::question::conditions::Symmetry;
-use crate::search::question::kept as what;
 use clap::{Args as ClapArgs, ValueEnum};
+use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
 enum Check {
     /// One prime, no cross-check.
     None,
@@ -21,7 +23,8 @@ enum Check {
     Full,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
 enum Drives {
     /// Outputs and drives keep moving together as in the original.
     Kept,
@@ -32,10 +35,10 @@ enum Drives {
 }
 
 /// All options that select variants, except the state.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, ClapArgs, Serialize)]
 #[allow(clippy::struct_excessive_bools, reason = "switches of a command line")]
 #[command(next_help_heading = "Selecting variants")]
-pub(in crate::cli) struct Which {
+pub(crate) struct Which {
     /// Maximum number of redundant constraints left within the mechanism.
     #[arg(long, value_name = "N", default_value_t = 0)]
     max_redundant: u32,
@@ -57,6 +60,7 @@ pub(in crate::cli) struct Which {
     #[arg(long, value_name = "N")]
     max_changes: Option<u32>,
     #[arg(long, value_name = "TERM[=WEIGHT],...", value_delimiter = ',', help = rank_help())]
+    #[serde(skip)]
     rank: Vec<String>,
     /// Number of cheapest variants to score in a ranking [default: 20000, then all others that could still win]. It stops early
     /// once the best are proven.
@@ -77,23 +81,29 @@ pub(in crate::cli) struct Which {
     options: Vec<String>,
     /// Joint types to allow at one joint, for example 2-3=revolute,spherical (repeatable). Its original type is always allowed.
     #[arg(long, value_name = "JOINT=NAMES")]
+    #[serde(skip)]
     allow: Vec<String>,
     /// Joint types to forbid at a joint, for example 2-3=spherical; 2-3 forbids all changes (repeatable).
     #[arg(long, value_name = "JOINT[=NAMES]")]
+    #[serde(skip)]
     forbid: Vec<String>,
     /// Joint types to allow in series with joints, in addition to those of the file: spherical,planar=4-a,a-8, or only spherical
     /// for all joints that the searched state adds (repeatable).
     #[arg(long, value_name = "NAMES[=JOINTS]")]
+    #[serde(skip)]
     unloading: Vec<String>,
     /// TOML file with costs of joint types and changes, as `ozols show costs` prints them. It replaces the defaults and
     /// [search.costs] of FILE.
     #[arg(long, value_name = "COSTS", value_hint = clap::ValueHint::FilePath)]
+    #[serde(skip)]
     costs: Option<PathBuf>,
     /// Only mirror-symmetric variants.
     #[arg(long)]
+    #[serde(skip)]
     symmetric: bool,
     /// List only one of each pair of mirror images.
     #[arg(long, conflicts_with = "symmetric")]
+    #[serde(skip)]
     one_per_orbit: bool,
     /// List only the first variant of each idea (same freedoms added to the same chain of joints).
     #[arg(long)]
@@ -110,12 +120,13 @@ pub(in crate::cli) struct Which {
     /// Memory limit of the search, for example 500M or 2G [default: a quarter of the machine's memory]. If it is reached, counts
     /// are lower bounds, as with --nodes.
     #[arg(long, value_name = "BYTES", value_parser = memory::bytes)]
-    pub(in crate::cli) memory: Option<usize>,
+    #[serde(skip)]
+    pub(crate) memory: Option<usize>,
 }
 
 /// Options that select variants, the state, and the checks.
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Checked {
+pub(crate) struct Checked {
     #[command(flatten)]
     which: Which,
     /// State to include in the search, in addition to the free one [default with --max-external or --max-harmful: the first of
@@ -125,7 +136,7 @@ pub(in crate::cli) struct Checked {
     /// Check each listed variant (up to 1000) in N further poses of the original motion, and mark those with a different W, σ or
     /// output motion.
     #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(in crate::cli) poses: usize,
+    pub(crate) poses: usize,
     /// Check of the search.
     #[arg(long, value_enum, default_value = "full")]
     check: Check,
@@ -133,7 +144,7 @@ pub(in crate::cli) struct Checked {
 
 impl Which {
     /// Builds the request, about a state if one is named.
-    pub(in crate::cli) fn request(&self, state: Option<&str>) -> anyhow::Result<Request> {
+    pub(crate) fn request(&self, state: Option<&str>) -> anyhow::Result<Request> {
         let joint_options = |rule: &String| match rule.split_once('=') {
             Some((joint, names)) => JointOptions {
                 joint: joint.to_owned(),
@@ -155,44 +166,24 @@ impl Which {
                 joints: list(joints),
             }
         };
+        let symmetry = match (self.symmetric, self.one_per_orbit) {
+            (true, _) => Symmetry::SymmetricOnly,
+            (_, true) => Symmetry::OnePerOrbit,
+            _ => Symmetry::All,
+        };
+        let rank = self.rank.iter().map(|w| weighted_term(w));
+        let rank = rank.collect::<Result<_, _>>();
         Ok(Request {
-            max_redundant: self.max_redundant,
-            max_external: self.max_external,
-            max_harmful: self.max_harmful,
-            allow_loose_object: self.allow_loose_object,
             state: state.map(str::to_owned),
-            max_mobility: self.max_mobility,
-            max_changes: self.max_changes,
-            allow_output_change: self.allow_output_change,
-            drives: match self.drives {
-                Drives::Kept => what::Drives::Kept,
-                Drives::Free => what::Drives::Free,
-                Drives::Independent => what::Drives::Independent,
-            },
-            hold: self.hold.clone(),
             unloading: self.unloading.iter().map(inserts).collect(),
-            options: self.options.clone(),
             allow: self.allow.iter().map(joint_options).collect(),
             forbid: self.forbid.iter().map(joint_options).collect(),
             costs: self.costs.as_deref().map(cost_file).transpose()?,
-            symmetry: match (self.symmetric, self.one_per_orbit) {
-                (true, _) => Symmetry::SymmetricOnly,
-                (_, true) => Symmetry::OnePerOrbit,
-                _ => Symmetry::All,
-            },
-            as_written: self.as_written,
-            pose_only: self.pose_only,
-            nodes: self.nodes,
+            symmetry,
             memory: self.memory.unwrap_or_else(memory::quarter),
-            rank: self
-                .rank
-                .iter()
-                .map(|w| weighted_term(w))
-                .collect::<Result<_, _>>()
-                .map_err(|e| anyhow::anyhow!("--rank: {e}"))?,
-            pool: self.pool,
-            distinct: self.distinct,
-            ..Request::default()
+            rank: rank.map_err(|e| anyhow::anyhow!("--rank: {e}"))?,
+            // All other options are fields of a request.
+            ..serde_json::from_value(json!(self))?
         })
     }
 }
@@ -209,13 +200,9 @@ fn cost_file(path: &Path) -> anyhow::Result<CostFile> {
 
 impl Checked {
     /// Builds the request, with the seed of its samples and poses.
-    pub(in crate::cli) fn request(&self, seed: u64) -> anyhow::Result<Request> {
+    pub(crate) fn request(&self, seed: u64) -> anyhow::Result<Request> {
         Ok(Request {
-            check: match self.check {
-                Check::None => request::Check::None,
-                Check::Prime => request::Check::Prime,
-                Check::Full => request::Check::Full,
-            },
+            check: serde_json::from_value(json!(self.check))?,
             poses: self.poses,
             seed,
             ..self.which.request(self.state.as_deref())?

@@ -11,7 +11,7 @@ use clap::Args as ClapArgs;
 /// Selects a variant of the list of a search.
 #[derive(Debug, ClapArgs)]
 #[group(id = "chosen", multiple = false)]
-pub(in crate::cli) struct Chosen {
+pub(crate) struct Chosen {
     /// Variant K of the list that `ozols search FILE` prints with the same options below.
     #[arg(long, value_name = "K")]
     variant: Option<usize>,
@@ -22,12 +22,12 @@ pub(in crate::cli) struct Chosen {
 
 impl Chosen {
     /// Returns its place in the list, if one is selected.
-    pub(in crate::cli) fn place(&self) -> Option<usize> {
+    pub(crate) fn place(&self) -> Option<usize> {
         self.variant.or(self.idea)
     }
 
     /// Returns the request for its list.
-    pub(in crate::cli) fn of(&self, request: Request) -> Request {
+    pub(crate) fn of(&self, request: Request) -> Request {
         Request {
             distinct: request.distinct || self.idea.is_some(),
             ..request
@@ -37,7 +37,7 @@ impl Chosen {
 
 /// Calls `with` on variant `k` of the list that `ozols search` prints for the same request: the cheapest first, or in the order
 /// of the ranking that the file or the request asks for.
-pub(in crate::cli) fn kth<T>(
+pub(crate) fn kth<T>(
     mechanism: Mechanism,
     request: Request,
     k: usize,
@@ -47,14 +47,14 @@ pub(in crate::cli) fn kth<T>(
 }
 
 /// Says the notes of a search on standard error.
-pub(in crate::cli) fn tell(event: Event) {
+pub(crate) fn tell(event: Event) {
     if let Event::Note(text) = event {
         note(text);
     }
 }
 
 /// Does the same as [`kth`], with a given receiver of events.
-pub(in crate::cli) fn kth_telling<T>(
+pub(crate) fn kth_telling<T>(
     mechanism: Mechanism,
     request: Request,
     k: usize,

@@ -1,16 +1,16 @@
 //! Charts and drawings into a folder, each as SVG and CSV.
 
 use crate::chart::{Chart, page};
-use crate::cli::terminal::{Done, output};
+use crate::cli::terminal::output;
 
 /// A drawing next to the charts.
-pub(in crate::cli) struct ChartDrawing {
+pub(crate) struct ChartDrawing {
     /// Name of its files, without ending.
-    pub(in crate::cli) name: String,
+    pub(crate) name: String,
     /// Title of the drawing.
-    pub(in crate::cli) title: String,
+    pub(crate) title: String,
     /// Its texts by ending, including svg.
-    pub(in crate::cli) files: Vec<(&'static str, String)>,
+    pub(crate) files: Vec<(&'static str, String)>,
 }
 
 use anyhow::Context;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Writes `NAME.svg` and `NAME.csv` of each chart, and a page of all if a title is given. Creates the folder if it is missing.
 /// Drawings come last.
-pub(in crate::cli) fn write(
+pub(crate) fn write(
     folder: &Path,
     title: Option<&str>,
     charts: &[(String, Chart)],
@@ -26,12 +26,7 @@ pub(in crate::cli) fn write(
 ) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let write = |name: &str, text: &str| {
-        output::to(Some(&folder.join(name)), |out| {
-            write!(out, "{text}")?;
-            Ok(Done::Found)
-        })
-    };
+    let write = |name: &str, text: &str| output::put(Some(&folder.join(name)), text);
     let mut parts = Vec::new();
     for (name, chart) in charts {
         let svg = chart.svg();

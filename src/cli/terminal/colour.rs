@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// The kind of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::cli) enum Tone {
+pub(crate) enum Tone {
     Good,
     Doubtful,
     Bad,
@@ -14,7 +14,7 @@ pub(in crate::cli) enum Tone {
 
 /// Returns a text with each of the verdicts in its colour; each verdict is searched for after the one before. Returns it
 /// unchanged if it goes to a file or nobody looks.
-pub(in crate::cli) fn toned(
+pub(crate) fn toned(
     text: String,
     path: Option<&Path>,
     verdicts: impl IntoIterator<Item = (String, Tone)>,

@@ -17,13 +17,13 @@ static PENDING: AtomicBool = AtomicBool::new(false);
 static PATIENT: AtomicBool = AtomicBool::new(false);
 
 /// Listens from now on.
-pub(in crate::cli) fn listen() -> anyhow::Result<()> {
+pub(crate) fn listen() -> anyhow::Result<()> {
     handle().context("cannot listen for signals")
 }
 
 /// Makes the limit on the size of files an error of the write that exceeds it. By default its signal ends the program at once and
 /// leaves temporary files behind.
-pub(in crate::cli) fn outlive_file_limits() {
+pub(crate) fn outlive_file_limits() {
     #[cfg(unix)]
     {
         use std::sync::{Arc, Once};
@@ -88,27 +88,27 @@ fn code(signal: u8) -> u8 {
 }
 
 /// Leaves the first signal to the callers of [`pending`] from now on.
-pub(in crate::cli) fn be_patient() {
+pub(crate) fn be_patient() {
     PATIENT.store(true, Ordering::SeqCst);
 }
 
 /// Makes every signal end the program at once from now on, as before [`be_patient`].
-pub(in crate::cli) fn be_impatient() {
+pub(crate) fn be_impatient() {
     PATIENT.store(false, Ordering::SeqCst);
 }
 
 /// Returns true if the work should end early.
-pub(in crate::cli) fn pending() -> bool {
+pub(crate) fn pending() -> bool {
     PENDING.load(Ordering::Relaxed)
 }
 
 /// Clears the pending signal, because the work it was meant for has ended. The next signal is for the work that follows.
-pub(in crate::cli) fn answered() {
+pub(crate) fn answered() {
     PENDING.store(false, Ordering::SeqCst);
 }
 
 /// Returns the exit code of a run that was interrupted.
-pub(in crate::cli) fn exit_code() -> Option<u8> {
+pub(crate) fn exit_code() -> Option<u8> {
     match FIRST.load(Ordering::SeqCst) {
         0 => None,
         signal => Some(code(signal)),

@@ -5,21 +5,21 @@ use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 /// Returns the time since the first call.
-pub(in crate::cli) fn clock() -> Duration {
+pub(crate) fn clock() -> Duration {
     static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
     BEGUN.elapsed()
 }
 
 /// Returns the processor time that the threads of this process have used so far, which is independent of the load of the machine.
 #[cfg(unix)]
-pub(in crate::cli) fn processor_time() -> Duration {
+pub(crate) fn processor_time() -> Duration {
     let told = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
     Duration::try_from(told).unwrap_or_default()
 }
 
 /// Returns the time on the clock, if no other is available.
 #[cfg(not(unix))]
-pub(in crate::cli) fn processor_time() -> Duration {
+pub(crate) fn processor_time() -> Duration {
     clock()
 }
 
@@ -32,7 +32,7 @@ fn value(file: &str, key: &str) -> Option<String> {
 
 /// Returns the memory of the machine, in bytes.
 #[cfg(target_os = "linux")]
-pub(in crate::cli) fn memory() -> Option<u64> {
+pub(crate) fn memory() -> Option<u64> {
     let told = rustix::system::sysinfo();
     #[allow(
         clippy::useless_conversion,
@@ -44,19 +44,19 @@ pub(in crate::cli) fn memory() -> Option<u64> {
 
 /// Returns the memory of the machine, in bytes.
 #[cfg(not(target_os = "linux"))]
-pub(in crate::cli) fn memory() -> Option<u64> {
+pub(crate) fn memory() -> Option<u64> {
     let mut told = sysinfo::System::new();
     told.refresh_memory();
     Some(told.total_memory()).filter(|bytes| *bytes > 0)
 }
 
 /// Returns the size of the address space of this process, in bytes.
-pub(in crate::cli) fn addresses() -> Option<u64> {
+pub(crate) fn addresses() -> Option<u64> {
     bytes("/proc/self/status", "VmSize")
 }
 
 /// Returns the peak memory of this process, in bytes.
-pub(in crate::cli) fn peak() -> Option<u64> {
+pub(crate) fn peak() -> Option<u64> {
     bytes("/proc/self/status", "VmHWM")
 }
 
@@ -67,7 +67,7 @@ fn bytes(file: &str, key: &str) -> Option<u64> {
 }
 
 /// Returns this machine, as far as its system describes it.
-pub(in crate::cli) fn machine() -> Machine {
+pub(crate) fn machine() -> Machine {
     let architecture = std::env::consts::ARCH;
     let named = ["model name", "Hardware", "cpu model"];
     let processor = named

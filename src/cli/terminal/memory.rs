@@ -7,7 +7,7 @@ use crate::score::request::Request;
 
 /// Returns a quarter of the memory that the machine has, or that this process may have of it; the library's default if that is
 /// unknown. If addresses are scarce, returns at most half of those that are left.
-pub(in crate::cli) fn quarter() -> usize {
+pub(crate) fn quarter() -> usize {
     let most = least().map_or(Request::default().memory as u64, |all| all / 4);
     let taken = machine::addresses().unwrap_or(0);
     let left = ulimit().map(|all| all.saturating_sub(taken) / 2);
@@ -15,7 +15,7 @@ pub(in crate::cli) fn quarter() -> usize {
 }
 
 /// Returns a size in words, such as "48 MiB" or "3.9 GiB".
-pub(in crate::cli) fn words(bytes: u64) -> String {
+pub(crate) fn words(bytes: u64) -> String {
     #[allow(
         clippy::cast_precision_loss,
         reason = "printed with two digits or three"
@@ -28,7 +28,7 @@ pub(in crate::cli) fn words(bytes: u64) -> String {
 }
 
 /// Parses a size in bytes: a number, optionally followed by k, M, G or T (powers of 1024), and B or iB.
-pub(in crate::cli) fn bytes(word: &str) -> Result<usize, String> {
+pub(crate) fn bytes(word: &str) -> Result<usize, String> {
     let plain = word.trim_end_matches(['b', 'B']).trim_end_matches('i');
     let units = ["kK", "mM", "gG", "tT"];
     let unit = units
@@ -72,7 +72,7 @@ fn ulimit() -> Option<u64> {
 /// Restarts the program if addresses are scarce, with one pool of memory for all threads. glibc reserves 64 MiB of addresses for
 /// each thread's pool, so a few threads would use up the addresses without using the memory.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
-pub(in crate::cli) fn share_pools(words: &[std::ffi::OsString]) {
+pub(crate) fn share_pools(words: &[std::ffi::OsString]) {
     use std::os::unix::process::CommandExt;
     const POOLS: &str = "MALLOC_ARENA_MAX";
     /// With more bytes than this, the reserved addresses do not matter.
@@ -91,4 +91,4 @@ pub(in crate::cli) fn share_pools(words: &[std::ffi::OsString]) {
 }
 
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
-pub(in crate::cli) fn share_pools(_: &[std::ffi::OsString]) {}
+pub(crate) fn share_pools(_: &[std::ffi::OsString]) {}

@@ -1,9 +1,9 @@
 //! Results go to standard output or to a file, which is written completely or not at all. Errors go to standard error.
 
 mod beside;
-pub(in crate::cli) mod kept;
+pub(crate) mod kept;
 
-pub(in crate::cli) use beside::{abandon, cut_short};
+pub(crate) use beside::{abandon, cut_short};
 
 use crate::cli::terminal::{Done, spinner};
 use crate::file::problem::ImportError;
@@ -20,7 +20,7 @@ fn file(path: Option<&Path>) -> Option<&Path> {
 }
 
 /// Runs `write` on standard output, which is also `-`, or on a file that appears under its name only once it is complete.
-pub(in crate::cli) fn to(
+pub(crate) fn to(
     path: Option<&Path>,
     write: impl FnOnce(&mut dyn Write) -> anyhow::Result<Done>,
 ) -> anyhow::Result<Done> {
@@ -75,22 +75,27 @@ pub(in crate::cli) fn to(
     Ok(done)
 }
 
+/// Writes a text or other bytes to standard output or a file.
+pub(crate) fn put(path: Option<&Path>, all: impl AsRef<[u8]>) -> anyhow::Result<Done> {
+    to(path, |out| {
+        out.write_all(all.as_ref())?;
+        Ok(Done::Found)
+    })
+}
+
 /// Writes files, by name and content, to a folder.
-pub(in crate::cli) fn files(
+pub(crate) fn files(
     folder: &Path,
     files: impl IntoIterator<Item = (String, String)>,
 ) -> anyhow::Result<()> {
     for (name, text) in files {
-        to(Some(&folder.join(&name)), |out| {
-            out.write_all(text.as_bytes())?;
-            Ok(Done::Found)
-        })?;
+        put(Some(&folder.join(&name)), text)?;
     }
     Ok(())
 }
 
 /// Returns an error if a drawing or a page would be written to a terminal.
-pub(in crate::cli) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow::Result<()> {
+pub(crate) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow::Result<()> {
     anyhow::ensure!(
         path.is_some() || !io::stdout().is_terminal(),
         "{what} is not written to a terminal; give a file with -o FILE"
@@ -98,19 +103,16 @@ pub(in crate::cli) fn not_to_terminal(path: Option<&Path>, what: &str) -> anyhow
     Ok(())
 }
 
-/// Writes a value as JSON for people to read and programs to parse.
-pub(in crate::cli) fn json(
-    out: &mut dyn Write,
-    value: &impl serde::Serialize,
-) -> anyhow::Result<()> {
-    Ok(writeln!(out, "{}", view::pretty(value)?)?)
+/// Returns a value as JSON for people to read and programs to parse.
+pub(crate) fn json(value: &impl serde::Serialize) -> anyhow::Result<String> {
+    Ok(view::pretty(value)? + "\n")
 }
 
 /// Minimum width of a text, in columns.
 const NARROWEST: u16 = 40;
 
 /// Returns the width of standard output: `OZOLS_WIDTH` if set, otherwise the width of its terminal.
-pub(in crate::cli) fn width(path: Option<&Path>) -> Option<u16> {
+pub(crate) fn width(path: Option<&Path>) -> Option<u16> {
     match file(path) {
         None => fitted(&console::Term::stdout()),
         Some(_) => None,
@@ -118,7 +120,7 @@ pub(in crate::cli) fn width(path: Option<&Path>) -> Option<u16> {
 }
 
 /// Returns the same for standard error.
-pub(in crate::cli) fn error_width() -> Option<u16> {
+pub(crate) fn error_width() -> Option<u16> {
     fitted(&console::Term::stderr())
 }
 
@@ -132,7 +134,7 @@ fn fitted(to: &console::Term) -> Option<u16> {
 }
 
 /// Returns true if the reader of our output has gone away.
-pub(in crate::cli) fn is_broken_pipe(e: &anyhow::Error) -> bool {
+pub(crate) fn is_broken_pipe(e: &anyhow::Error) -> bool {
     e.chain().any(|c| {
         c.downcast_ref::<std::io::Error>()
             .is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe)
@@ -143,26 +145,26 @@ pub(in crate::cli) fn is_broken_pipe(e: &anyhow::Error) -> bool {
 static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Leaves out all notes from now on.
-pub(in crate::cli) fn hush() {
+pub(crate) fn hush() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
 /// Prints a note on standard error; a closed one is not an error.
-pub(in crate::cli) fn note(text: &str) {
+pub(crate) fn note(text: &str) {
     if !QUIET.load(Ordering::Relaxed) {
         say(text);
     }
 }
 
 /// Says something on standard error, even where only errors are wanted.
-pub(in crate::cli) fn say(text: &str) {
+pub(crate) fn say(text: &str) {
     spinner::rest();
     let _ = write!(std::io::stderr().lock(), "{}", plain(text));
 }
 
 /// Prints an error, in colour if standard error is a terminal that supports it (NO_COLOR, CLICOLOR_FORCE), like the parser of the
 /// arguments.
-pub(in crate::cli) fn complain(e: &anyhow::Error) {
+pub(crate) fn complain(e: &anyhow::Error) {
     let text = match problems(e) {
         Some(import) => import.render(true),
         None => {
@@ -174,7 +176,7 @@ pub(in crate::cli) fn complain(e: &anyhow::Error) {
 }
 
 /// Returns the problems of a file, if these are the cause of an error.
-pub(in crate::cli) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
+pub(crate) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
     e.chain()
         .find_map(|c| match c.downcast_ref::<api::Error>() {
             Some(api::Error::File(problems)) => Some(problems),
@@ -183,7 +185,7 @@ pub(in crate::cli) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
 }
 
 /// Prints a note on standard error, without its colours if they are not supported.
-pub(in crate::cli) fn coloured_note(text: &str) {
+pub(crate) fn coloured_note(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
 }
 

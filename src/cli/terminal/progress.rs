@@ -16,24 +16,24 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Says what a search noticed.
-pub(in crate::cli) fn note(text: String) {
+pub(crate) fn note(text: String) {
     output::note(&format!("{text}\n"));
 }
 
 /// Watches a search: shows its progress, and ends it early at a signal.
-pub(in crate::cli) struct SearchWatch {
+pub(crate) struct SearchWatch {
     bar: Bar,
     quiet: bool,
 }
 
 impl SearchWatch {
-    pub(in crate::cli) fn new(quiet: bool) -> SearchWatch {
+    pub(crate) fn new(quiet: bool) -> SearchWatch {
         let bar = Bar::new(quiet);
         SearchWatch { bar, quiet }
     }
 
     /// Searches a mechanism.
-    pub(in crate::cli) fn run(
+    pub(crate) fn run(
         &mut self,
         mechanism: Mechanism,
         request: &Request,
@@ -44,7 +44,7 @@ impl SearchWatch {
     }
 
     /// Searches one that is prepared.
-    pub(in crate::cli) fn answer(
+    pub(crate) fn answer(
         &mut self,
         mechanism: Arc<Mechanism>,
         conditions: Conditions,
@@ -86,14 +86,14 @@ impl SearchWatch {
 }
 
 /// A bar that shows the progress of a run.
-pub(in crate::cli) struct Bar {
+pub(crate) struct Bar {
     bar: Option<ProgressBar>,
     begun: Instant,
     wanted: bool,
 }
 
 impl Bar {
-    pub(in crate::cli) fn new(quiet: bool) -> Self {
+    pub(crate) fn new(quiet: bool) -> Self {
         Bar {
             bar: None,
             begun: Instant::now(),
@@ -103,44 +103,35 @@ impl Bar {
 
     /// Shows how far a diagram has come: layer, nodes, and an estimate.
     fn show(&mut self, p: Progress) {
-        if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
-            return;
-        }
-        let bar = self.bar.get_or_insert_with(|| {
-            let bar =
-                ProgressBar::with_draw_target(Some(p.of as u64), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template(
-                "{elapsed_precise} [{bar:30}] {prefix} {pos}/{len} {msg} (about {eta} left)",
-            );
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar
-        });
-        bar.set_prefix("joint");
-        bar.set_length(p.of as u64);
-        bar.set_position(p.done as u64);
-        bar.set_message(format!("{} nodes, {} in this layer", p.nodes, p.layer));
+        let message = format!("{} nodes, {} in this layer", p.nodes, p.layer);
+        self.set("joint ", p.done, p.of, message);
     }
 
     /// Shows how far a run of known length has come.
-    pub(in crate::cli) fn step(&mut self, what: &str, done: usize, of: usize) {
+    pub(crate) fn step(&mut self, what: &str, done: usize, of: usize) {
         spinner::rest();
+        self.set("", done, of, what.to_owned());
+    }
+
+    fn set(&mut self, prefix: &'static str, done: usize, of: usize, message: String) {
         if !self.wanted || self.begun.elapsed() < Duration::from_secs(1) {
             return;
         }
         let bar = self.bar.get_or_insert_with(|| {
             let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
             let style = ProgressStyle::with_template(
-                "{elapsed_precise} [{bar:30}] {pos}/{len} {msg} (about {eta} left)",
+                "{elapsed_precise} [{bar:30}] {prefix}{pos}/{len} {msg} (about {eta} left)",
             );
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar
         });
+        bar.set_prefix(prefix);
         bar.set_length(of as u64);
         bar.set_position(done as u64);
-        bar.set_message(what.to_owned());
+        bar.set_message(message);
     }
 
-    pub(in crate::cli) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }

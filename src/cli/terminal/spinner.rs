@@ -9,7 +9,7 @@ use std::time::Duration;
 static WORKING: Mutex<(u64, Option<ProgressBar>)> = Mutex::new((0, None));
 
 /// Shows on a terminal that work continues, after a second and until [`rest`].
-pub(in crate::cli) fn show(quiet: bool) {
+pub(crate) fn show(quiet: bool) {
     if quiet || !std::io::stderr().is_terminal() {
         return;
     }
@@ -31,7 +31,7 @@ pub(in crate::cli) fn show(quiet: bool) {
 }
 
 /// Takes away what [`show`] shows: something is written.
-pub(in crate::cli) fn rest() {
+pub(crate) fn rest() {
     let mut shown = locked();
     shown.0 += 1;
     if let Some(bar) = shown.1.take() {

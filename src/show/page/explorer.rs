@@ -4,6 +4,7 @@
 use super::contents::{Page, SHOWN};
 use crate::view::analysis::Analysis;
 use crate::view::search::nothing_found::hopeless;
+use crate::view::terminal::next_commands::flag;
 use maud::{Markup, PreEscaped, html};
 
 pub(super) fn stage(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
@@ -58,8 +59,8 @@ fn player(analysis: &Analysis<'_>) -> Markup {
             span.help role="status" data-part="say" data-moves {}
             @for (i, s) in analysis.states.iter().enumerate() {
                 @for (n, what, flags) in [
-                    (s.found.idle.len(), "idle freedoms", "--motion --idle K"),
-                    (s.found.self_stresses.len(), "self-stresses", "--self-stress K"),
+                    (s.found.idle.len(), "idle freedoms", flag("motion", flag("idle", "K"))),
+                    (s.found.self_stresses.len(), "self-stresses", flag("self-stress", "K")),
                 ] {
                     @if n > SHOWN {
                         span.help data-state-help=(i) {

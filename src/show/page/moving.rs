@@ -14,6 +14,7 @@ use crate::rank::stroke::request::{AskedError, drive_or_any, lengths_where_it_sl
 use crate::redundancy::analysis::StateAnalysis;
 use crate::redundancy::local_mobility::{FAR, wiggle};
 use crate::view::analysis::idle;
+use crate::view::terminal::next_commands::flag;
 use anyhow::{Context, ensure};
 use std::f64::consts::PI;
 
@@ -190,7 +191,8 @@ fn stroke_asked(
     let asked = stroke(text)?;
     ensure!(
         (2..=MOST).contains(&asked.steps),
-        "--stroke takes 2 to {MOST} steps for a drawing"
+        "{} takes 2 to {MOST} steps for a drawing",
+        flag("stroke", "")
     );
     Ok(Some(asked))
 }

@@ -7,7 +7,7 @@ use crate::redundancy::stress::StressVerdict;
 use crate::score::outcome::variant::Variant;
 use crate::search::answer::k_best::Assignment;
 use crate::view::analysis::{Analysis, State};
-use crate::view::search::conditions::in_state;
+use crate::view::search::counts::in_state;
 use crate::view::search::counts::where_kept;
 use crate::view::search::numeric;
 use crate::view::search::second_opinion;

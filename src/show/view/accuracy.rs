@@ -3,110 +3,61 @@
 use crate::accuracy::AnswerVerdict;
 use crate::accuracy::pictures::repeated;
 use crate::accuracy::searching::pictures::{USE_WHEN, ranking, wrong};
-use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
+use crate::accuracy::searching::record::{Record, Share, Trial, rows};
 use crate::accuracy::stability::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::{duration, grouped, signed};
+use crate::format::{duration, signed};
 use crate::rank::method::{MobilityMethod, registry};
-use crate::view::terminal::layout::{fit, table};
-use serde::Serialize;
+use crate::view::prelude::*;
 use std::cmp::Reverse;
-use std::fmt::Write;
 
-/// Everything, for programs: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
-#[derive(Debug, Serialize)]
-pub struct BenchData<'a> {
-    machine: MachineData<'a>,
-    mechanisms: Vec<TrialData<'a>>,
-    ways: Vec<TrialRow<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct MachineData<'a> {
-    processor: &'a str,
-    threads: usize,
-    cores: usize,
-    memory_bytes: Option<u64>,
-    system: &'a str,
-    version: &'static str,
-    optimised: bool,
-    clock: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-struct TrialData<'a> {
-    mechanism: &'a str,
-    space: String,
-    determinate: Option<String>,
-    admissible: Option<String>,
-    looked_at: usize,
-    all_looked_at: bool,
-    top: usize,
-    ranked_by_pool: Option<usize>,
-    ranking_proven: Option<bool>,
-}
-
-impl<'a> BenchData<'a> {
-    /// Of some trials.
-    #[must_use]
-    pub fn new(trials: &'a [Trial], machine: &'a Machine) -> BenchData<'a> {
-        let trial = |t: &'a Trial| {
-            let found = |i: usize| t.found.as_ref().map(|f| f[i].to_string());
-            TrialData {
-                mechanism: &t.mechanism,
-                space: t.space.to_string(),
-                determinate: found(0),
-                admissible: found(1),
-                looked_at: t.looked,
-                all_looked_at: t.whole,
-                top: t.top,
-                ranked_by_pool: t.ranked.map(|r| r.0),
-                ranking_proven: t.ranked.map(|r| r.1),
-            }
-        };
-        BenchData {
-            machine: MachineData {
-                processor: &machine.processor,
-                threads: machine.threads,
-                cores: machine.cores,
-                memory_bytes: machine.memory,
-                system: &machine.system,
-                version: Machine::VERSION,
-                optimised: machine.optimised,
-                clock: machine.time(),
-            },
-            mechanisms: trials.iter().map(trial).collect(),
-            ways: rows(trials),
-        }
-    }
+/// Returns everything for programs: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
+pub fn bench_json(trials: &[Trial], machine: &Machine) -> Value {
+    let trial = |t: &Trial| {
+        let found = |i: usize| t.found.as_ref().map(|f| f[i].to_string());
+        json!({
+            "mechanism": t.mechanism,
+            "space": t.space.to_string(),
+            "determinate": found(0),
+            "admissible": found(1),
+            "looked_at": t.looked,
+            "all_looked_at": t.whole,
+            "top": t.top,
+            "ranked_by_pool": t.ranked.map(|r| r.0),
+            "ranking_proven": t.ranked.map(|r| r.1),
+        })
+    };
+    json!({
+        "machine": {
+            "processor": machine.processor,
+            "threads": machine.threads,
+            "cores": machine.cores,
+            "memory_bytes": machine.memory,
+            "system": machine.system,
+            "version": Machine::VERSION,
+            "optimised": machine.optimised,
+            "clock": machine.time(),
+        },
+        "mechanisms": trials.iter().map(trial).collect::<Value>(),
+        "ways": rows(trials),
+    })
 }
 
 /// A table for each mechanism, and on what machine they were made.
-#[must_use]
 pub fn bench_text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
     let mut out = String::new();
     for t in trials {
         out += &fit(&trial_head(t), width);
-        let best = format!("of the best {}", t.top);
-        let heads = [
-            "way",
-            "right counts",
-            "counting",
-            &best,
-            "naming them",
-            "right variants",
-        ];
-        let rows = t.records.iter().map(row).collect();
-        // Writing to a string cannot fail.
-        let _ = write!(out, "\n{}\n\n", table(&heads, rows, width));
+        let heads = format!(
+            "way | right counts | counting | of the best {} | naming them | right variants",
+            t.top
+        );
+        out += &format!("\n{}\n\n", table(&heads, t.records.iter().map(row), width));
         out += &fit(&format!("{}\n\n", notes(t)), width);
     }
-    let times = if trials
-        .iter()
-        .flat_map(|t| &t.records)
-        .any(|r| r.counting.is_some_and(|t| t.repeats > 1))
-    {
+    let mut records = trials.iter().flat_map(|t| &t.records);
+    let times = if records.any(|r| r.counting.is_some_and(|t| t.repeats > 1)) {
         "the median and the farthest from it"
     } else {
         "once"
@@ -129,8 +80,9 @@ fn trial_head(t: &Trial) -> String {
             grouped(admissible)
         ),
         None => format!(
-            "{}: {space} variants; the truth needs more --nodes, so that no counts are compared\n",
-            t.mechanism
+            "{}: {space} variants; the truth needs more {}, so that no counts are compared\n",
+            t.mechanism,
+            flag("nodes", "")
         ),
     }
 }
@@ -178,7 +130,6 @@ fn notes(t: &Trial) -> String {
 
 /// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph
 /// for each study.
-#[must_use]
 pub fn summary(
     [survey, generated]: [&Survey; 2],
     studies: &[Study],
@@ -186,37 +137,24 @@ pub fn summary(
     width: Option<u16>,
 ) -> String {
     let cases = survey.cases.len();
-    let heads = [
-        "method",
-        &format!("right of {cases}"),
-        "at the pose only",
-        "wrong",
-        "n/a",
-        &format!("right of {} from the seed", generated.cases.len()),
-        "median time",
-        "middle half",
-        "what fails, and why",
-    ];
+    let heads = format!(
+        "method | right of {cases} | at the pose only | wrong | n/a | right of {} from the seed | median time | middle half | \
+         what fails, and why",
+        generated.cases.len()
+    );
     let standing = |name: &str| {
         let m = registry::ALL.iter().position(|x| x.name() == name)?;
         Some(survey.standing(m).right)
     };
     let mut out = format!("{cases} cases of known mobility");
     if let (Some(auto), Some(count)) = (standing("auto"), standing("count")) {
-        // Writing to a string cannot fail.
-        let _ = write!(
-            out,
-            ": the automatic choice is right on {auto}, the counting formula on {count}"
-        );
+        out +=
+            &format!(": the automatic choice is right on {auto}, the counting formula on {count}");
     }
-    let _ = write!(
-        out,
-        "\n\n{}\n",
-        table(&heads, method_rows(survey, generated), width)
-    );
-    let _ = write!(out, "\n{}. On {machine}.\n", repeated(survey));
+    let table = table(&heads, method_rows(survey, generated), width);
+    out += &format!("\n\n{table}\n\n{}. On {machine}.\n", repeated(survey));
     for study in studies {
-        let _ = write!(out, "\n{}: {}\n", study.title, study.conclusion());
+        out += &format!("\n{}: {}\n", study.title, study.conclusion());
     }
     fit(&out, width)
 }

@@ -1,6 +1,6 @@
 //! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
 
-pub(crate) mod idle;
+pub mod idle;
 pub mod link_motions;
 pub mod mechanism;
 pub mod mobility;
@@ -10,7 +10,6 @@ pub(crate) mod text;
 
 use crate::geom::expr::PI_DIGITS;
 use crate::model::claim::Topic;
-use crate::model::mechanism::{JointId, LinkId, Mechanism};
 use crate::rank::reduce::axis_names::Direction;
 use crate::rank::reduce::sufficient_rows::{LeastRows, Motions};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External, StateAnalysis};
@@ -19,10 +18,8 @@ use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::suggestions::Advice;
 use crate::view::claims::about;
+use crate::view::prelude::*;
 use crate::view::stroke::StrokeData;
-use crate::view::{as_read, joined, kind};
-use itertools::Itertools;
-use serde_json::{Value, json};
 
 /// The analysis of a mechanism.
 #[derive(Debug)]
@@ -50,7 +47,6 @@ pub struct State<'a> {
 
 impl<'a> Analysis<'a> {
     /// What `found` says of a mechanism, with `advice` for each of its states, or none.
-    #[must_use]
     pub fn new(
         mechanism: &'a Mechanism,
         found: &'a [StateAnalysis],
@@ -70,7 +66,6 @@ impl<'a> Analysis<'a> {
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let m = self.mechanism;
         json!({
@@ -126,7 +121,7 @@ impl State<'_> {
         let (m, s) = (self.mechanism, self.found);
         let most = s.at_most();
         let fault = |d| {
-            let (kind, joint, text) = idle::fault(m, d);
+            let (kind, joint, text) = idle::drive_fault(m, d);
             json!({ "kind": kind, "joint": joint, "text": text })
         };
         let left_out = |&(j, freedoms): &(JointId, usize)| json!({ "joint": self.joint(j), "freedoms": freedoms });

@@ -3,7 +3,6 @@
 pub mod counts;
 #[cfg(feature = "store")]
 pub mod find;
-#[cfg(feature = "store")]
 pub mod query;
 #[cfg(feature = "store")]
 pub mod structures;

@@ -1,11 +1,9 @@
 //! What publications say of the mechanism they show: confirmed, or what is right instead.
 
-use crate::format::plural;
 use crate::model::claim::{Claim, Topic};
-use crate::view::terminal::layout::table;
+use crate::view::prelude::*;
 
 /// Those about a topic, in the order of the file.
-#[must_use]
 pub(crate) fn about(claims: &[Claim], topic: Topic) -> Vec<&Claim> {
     claims.iter().filter(|c| c.topic == topic).collect()
 }
@@ -24,7 +22,6 @@ fn verdict(claim: &Claim) -> &'static str {
 }
 
 /// Returns a line that counts the claims; empty if there are none.
-#[must_use]
 pub(crate) fn counted(claims: &[&Claim]) -> String {
     if claims.is_empty() {
         return String::new();
@@ -43,22 +40,17 @@ pub(crate) fn counted(claims: &[&Claim]) -> String {
 }
 
 /// Returns the same with a table of the claims.
-#[must_use]
 pub(crate) fn text(claims: &[&Claim], width: Option<u16>) -> String {
     if claims.is_empty() {
         return String::new();
     }
     let rows = claims.iter().map(|c| {
-        let mut why = match &c.right {
-            Some(right) => format!("right: {right}; {}", c.evidence),
-            None => c.evidence.clone(),
-        };
-        if let Some(scan) = &c.scan {
-            why += &format!("; the text is a scan, and this rests on {scan}");
-        }
-        vec![c.source.clone(), c.says.clone(), verdict(c).to_owned(), why]
+        let right = c.right.iter().map(|right| format!("right: {right}; "));
+        let scan = c.scan.iter();
+        let scan = scan.map(|scan| format!("; the text is a scan, and this rests on {scan}"));
+        let why = right.chain([c.evidence.clone()]).chain(scan).join("");
+        cells([&c.source, &c.says, &verdict(c), &why])
     });
-    let head = ["where", "claim", "so", "evidence"];
-    let table = table(&head, rows.collect(), width);
+    let table = table("where | claim | so | evidence", rows, width);
     format!("{}\n{table}\n", counted(claims))
 }

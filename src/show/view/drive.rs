@@ -12,8 +12,7 @@ use crate::file::read::workload::WorkloadFile;
 use crate::model::claim::Topic;
 use crate::model::drive::DriveSpec;
 use crate::view::claims::about;
-use crate::view::joined;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// A drive of a file and what was found of it.
 #[derive(Debug)]
@@ -28,7 +27,6 @@ pub struct Drive<'a> {
 
 impl<'a> Drive<'a> {
     /// A drive of a file and what was found of it.
-    #[must_use]
     pub fn new(file: &'a WorkloadFile<DriveSpec>, found: &'a Driving) -> Self {
         Drive {
             file,
@@ -38,13 +36,11 @@ impl<'a> Drive<'a> {
     }
 
     /// Returns whether every swing ended in a latch.
-    #[must_use]
     pub fn complete(&self) -> bool {
         self.design.is_some_and(|d| d.run.complete())
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let spec = &self.file.spec;
         json!({

@@ -16,8 +16,7 @@ use crate::model::grip::GripSpec;
 use crate::statics::transmission::Rates;
 use crate::view::claims::about;
 use crate::view::grip::motion::GripMotion;
-use crate::view::joined;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// What a gripper can hold.
 #[derive(Debug)]
@@ -53,13 +52,11 @@ impl<'a> GripReport<'a> {
     }
 
     /// Returns whether every diameter is held in every case, and at every step of the motion.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.found.study.holds() && self.motion.as_ref().is_none_or(GripMotion::holds)
     }
 
     /// Returns all of it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let (study, hardest) = (&self.found.study, self.hardest());
         json!({

@@ -7,18 +7,16 @@ pub use assembly::{Misfit, TypeChange};
 pub use finding::PassedOver;
 pub use finding::{Finding, words};
 
-use assembly::{count, then};
-use finding::LintWords;
-
-use crate::format::plural;
-use crate::model::mechanism::Mechanism;
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::Duplicate;
 use crate::robots::{CadCount, Imported, Origin, Report};
-use crate::view::{as_read, kind, with_assumptions};
-use serde::Serialize;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
+use crate::view::with_assumptions;
+use assembly::{count, then};
+use finding::LintWords;
 
+/// The verdict on a file without redundant constraints.
+pub const NONE: &str = "no redundant constraints";
 /// Notes told of how a file was read.
 const NOTES: usize = 6;
 
@@ -78,7 +76,6 @@ pub struct Lint {
 
 impl Lint {
     /// What was found in a mechanism, in the words of the description it came from, where it did.
-    #[must_use]
     pub fn new(file: &str, m: &Mechanism, read: Option<&Imported>, found: &HeldTwice) -> Lint {
         let origin = read.map(|i| &i.origin);
         let report = read.map(|i| &i.report);
@@ -135,7 +132,6 @@ impl Lint {
     }
 
     /// The same with the types that joints are to get, and W then: they go before single freedoms.
-    #[must_use]
     pub fn changing(mut self, found: Option<(Vec<TypeChange>, usize)>) -> Lint {
         if let Some((changes, mobility)) = found {
             self.cheapest = changes.iter().map(TypeChange::words).collect();
@@ -145,13 +141,11 @@ impl Lint {
     }
 
     /// Whether nothing is redundant, for sure, or at this pose only.
-    #[must_use]
     pub fn is_clean(&self) -> bool {
         self.redundant_over_motion == 0
     }
 
     /// Whether the file is in order: nothing is redundant, and nothing that could be was left out.
-    #[must_use]
     pub fn is_in_order(&self) -> bool {
         self.is_clean() && self.left_out == 0
     }
@@ -162,18 +156,16 @@ impl Lint {
     }
 
     /// Whether σ is one number.
-    #[must_use]
     pub fn is_decided(&self) -> bool {
         self.redundant == self.redundant_at_most
     }
 
     /// The findings, a paragraph each.
-    #[must_use]
     pub fn text(&self) -> String {
         let Lint { file, mobility, .. } = self;
         if self.redundant_at_most == 0 {
             return format!(
-                "{file}: nothing is redundant (σ = 0, W = {mobility}){}\n{}{}",
+                "{file}: {NONE} (σ = 0, W = {mobility}){}\n{}{}",
                 self.left_out(),
                 count(self.counted.filter(|_| self.left_out == 0), self.mobility),
                 self.told()
@@ -182,11 +174,16 @@ impl Lint {
         let (sigma, passing) = (self.sigma(), self.passing());
         let mut out = if self.is_clean() {
             format!(
-                "{file}: nothing is redundant over the motion; {sigma} at this pose, W = {mobility} there{}\n",
+                "{file}: {NONE} over the motion; {sigma} at this pose, W = {mobility} there{}\n",
                 self.left_out()
             )
         } else {
-            format!("{file}: {sigma}, W = {mobility}{}\n", self.left_out())
+            let over = if self.redundant > 0 {
+                "overconstrained: "
+            } else {
+                ""
+            };
+            format!("{file}: {over}{sigma}, W = {mobility}{}\n", self.left_out())
         };
         if passing > 0 && !self.is_clean() {
             out += &format!("  {passing} of them at this pose only\n");
@@ -238,8 +235,8 @@ impl Lint {
             .collect();
         if let more @ 1.. = notes().count().saturating_sub(NOTES) {
             out += &format!(
-                "  note: {more} more of the kind, which `ozols export --to toml` tells
-"
+                "  note: {more} more of the kind, which `ozols export {}` tells\n",
+                flag("to", "toml")
             );
         }
         out
@@ -259,7 +256,6 @@ impl Lint {
     }
 
     /// "2 redundant constraints (σ = 2)", "0 to 2 redundant constraints (...)".
-    #[must_use]
     pub fn sigma(&self) -> String {
         let (least, most) = (self.redundant, self.redundant_at_most);
         if self.is_decided() {
@@ -277,7 +273,6 @@ impl Lint {
 }
 
 /// What was found in some files as JSON, and which were passed over.
-#[must_use]
 pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
     finding::in_json(&mut out, passed_over);

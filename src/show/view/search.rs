@@ -1,17 +1,14 @@
 //! A search for people and programs: text, JSON, CSV.
 
-pub(crate) mod conditions;
 pub mod costs;
 pub(crate) mod counts;
 pub mod csv;
-pub mod data;
 pub mod json;
 pub mod nothing_found;
 pub(crate) mod numeric;
 pub(crate) mod ranking;
 pub(crate) mod second_opinion;
 pub(crate) mod stopped_early;
-pub(in crate::view) mod table;
 pub mod text;
 pub(crate) mod variant;
 pub(crate) mod why;

@@ -1,15 +1,11 @@
 //! A stroke as JSON, as a table and as a chart.
 
 use crate::chart::{Axis, Chart, Scale, Series, Style};
-use crate::format::{decimals, plural};
-use crate::model::mechanism::Mechanism;
+use crate::format::decimals;
 use crate::motion::follow::Stop;
 use crate::rank::stroke::analysis::{Output, PoseFigures, RankChange, StrokeFigures};
 use crate::rank::stroke::request::AskedStroke;
-use crate::view::terminal::layout::table;
-use itertools::Itertools;
-use serde_json::{Value, json};
-use std::fmt::Write;
+use crate::view::prelude::*;
 
 /// The figures over a stroke; positions in radians or, where the drive slides, in the file's length unit.
 #[derive(Debug)]
@@ -27,7 +23,6 @@ pub struct StrokeData<'a> {
 
 impl<'a> StrokeData<'a> {
     /// Follows a stroke that is asked for, and says what was found.
-    #[must_use]
     pub fn of(asked: &AskedStroke<'a>) -> StrokeData<'a> {
         let (m, state) = asked.subject();
         let (drive, slides) = asked.drive();
@@ -42,14 +37,12 @@ impl<'a> StrokeData<'a> {
     }
 
     /// Returns whether the way ends before the last pose asked for.
-    #[must_use]
     pub fn stops(&self) -> bool {
         self.found.stop.is_some()
     }
 
     /// Returns all of it as data. An output is where the middle of its joints is, in the file's length unit, and by what it has turned
     /// since the pose of the file `[rad]`.
-    #[must_use]
     pub fn json(&self) -> Value {
         let found = &self.found;
         let output = |o: &Output| {
@@ -112,104 +105,78 @@ impl<'a> StrokeData<'a> {
         }
     }
 
-    /// The stroke for people: one row a pose.
-    #[must_use]
+    /// Returns the stroke for people: one row a pose, where the rank changes, what no drive decides, and why the way ends early.
     pub fn text(&self, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "{}, state {}, over a stroke of {} from {} to {}:\n",
-            self.mechanism.name,
-            self.state,
-            self.drive,
-            self.place(self.range[0], 3),
-            self.place(self.range[1], 3)
+        let (found, mut out) = (&self.found, Report::new(None));
+        let [from, to] = self.range.map(|at| self.place(at, 3));
+        out.line(format!(
+            "{}, state {}, over a stroke of {} from {from} to {to}:\n",
+            self.mechanism.name, self.state, self.drive
+        ));
+        out.line(self.pose_table(width) + "\n");
+        for c in &found.changes {
+            out.line(format!("  {}", self.told(c)));
+        }
+        if found.changes.is_empty() && !found.poses.is_empty() {
+            out.line("  no change of the rank was found on the way, at the poses and between them");
+        }
+        if found.undriven > 0 {
+            let (motions, s) = (
+                plural(found.undriven, "motion"),
+                if found.undriven == 1 { "s" } else { "" },
+            );
+            out.line(format!(
+                "  {motions} of the outputs follow{s} no drive: the way shown is the one of least motion"
+            ));
+        }
+        if let Some(stop) = &found.stop {
+            out.line(format!(
+                "  stops at {}: {}",
+                self.place(stop.at, 5),
+                stop.why
+            ));
+        }
+        out.line(
+            "  conditioning: smallest kept singular value of J over the largest; drive share: of the drive in the motion of \
+             unit length, 0 at its dead points",
         );
-        let _ = writeln!(out, "{}\n", self.pose_table(width));
-        out += &self.remarks();
-        out
+        out.text()
     }
 
-    /// A row for each pose.
+    /// Returns a row for each pose.
     fn pose_table(&self, width: Option<u16>) -> String {
         // Each change stands at the first pose that is not before it.
         let ahead = (self.range[1] - self.range[0]).signum();
         let mut changes = self.found.changes.iter().peekable();
         let rows = self.found.poses.iter().map(|p| {
             let here = changes.peeking_take_while(|c| c.between[0] * ahead <= p.at * ahead);
-            let flag = here
-                .map(|c| {
-                    let at = self.place(middle(c), 4);
-                    format!("rank {} at {at}", c.ranks[1])
-                })
-                .join(", ");
-            let mut outputs = p.outputs.iter().map(|o| {
-                format!(
-                    "{}: ({}), {}°",
-                    self.mechanism.links[o.link].id,
-                    o.point.iter().map(|x| decimals(*x, 3)).join(", "),
-                    decimals(o.turn.to_degrees(), 2)
-                )
-            });
-            vec![
-                self.place(p.at, 3),
-                p.rank.rank.to_string(),
-                p.mobility.to_string(),
-                p.redundant.to_string(),
-                format!("{:.2e}", p.rank.kept),
-                format!("{:.2e}", p.share),
-                outputs.join("; "),
-                flag,
-            ]
+            let flag =
+                |c: &RankChange| format!("rank {} at {}", c.ranks[1], self.place(middle(c), 4));
+            let flags = here.map(flag).join(", ");
+            let output = |o: &Output| {
+                let link = &self.mechanism.links[o.link].id;
+                let point = o.point.iter().map(|x| decimals(*x, 3)).join(", ");
+                format!("{link}: ({point}), {}°", decimals(o.turn.to_degrees(), 2))
+            };
+            let outputs = p.outputs.iter().map(output).join("; ");
+            let [kept, share] = [p.rank.kept, p.share].map(|x| format!("{x:.2e}"));
+            let (at, r) = (self.place(p.at, 3), p.rank.rank);
+            cells([
+                &at,
+                &r,
+                &p.mobility,
+                &p.redundant,
+                &kept,
+                &share,
+                &outputs,
+                &flags,
+            ])
         });
-        let header = [
-            "drive",
-            "rank",
-            "W",
-            "σ",
-            "conditioning",
-            "drive share",
-            "outputs: middle, turn",
-            "",
-        ];
-        table(&header, rows.collect(), width)
-    }
-
-    /// Where the rank changes, what no drive decides, and why the way ends early.
-    fn remarks(&self) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        for c in &self.found.changes {
-            let _ = writeln!(out, "  {}", self.told(c));
-        }
-        if self.found.changes.is_empty() && !self.found.poses.is_empty() {
-            let _ = writeln!(
-                out,
-                "  no change of the rank was found on the way, at the poses and between them"
-            );
-        }
-        if self.found.undriven > 0 {
-            let _ = writeln!(
-                out,
-                "  {} of the outputs follow{} no drive: the way shown is the one of least motion",
-                plural(self.found.undriven, "motion"),
-                if self.found.undriven == 1 { "s" } else { "" }
-            );
-        }
-        if let Some(stop) = &self.found.stop {
-            let _ = writeln!(out, "  stops at {}: {}", self.place(stop.at, 5), stop.why);
-        }
-        let _ = writeln!(
-            out,
-            "  conditioning: smallest kept singular value of J over the largest; drive share: of the drive in the motion of \
-         unit length, 0 at its dead points"
-        );
-        out
+        let heads = "drive | rank | W | σ | conditioning | drive share | outputs: middle, turn | ";
+        table(heads, rows, width)
     }
 
     /// Conditioning over the stroke.
-    #[must_use]
     pub fn chart(&self) -> Chart {
         let x = |at: f64| if self.turns() { at.to_degrees() } else { at };
         let series = |name: &str, style, y: &dyn Fn(usize) -> f64| Series {

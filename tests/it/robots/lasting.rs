@@ -39,7 +39,7 @@ fn what_is_redundant_at_one_pose_only_is_a_note() {
     has_all(
         &out,
         &[
-            "nothing is redundant over the motion; 1 redundant constraint",
+            "no redundant constraints over the motion; 1 redundant constraint",
             "elsewhere in the motion 0, by 20 closed poses inside the limits",
             "note: e, row x duplicates",
             "at this pose only",

@@ -43,7 +43,7 @@ fn exit_codes_say_what_was_found() {
     // Nothing redundant: 0, and nothing is searched. Not readable: 2.
     let urdf = folder().join("mimic_gripper.urdf");
     let (out, _) = done(&["lint", urdf.to_str().unwrap()]);
-    has(&out, "nothing is redundant (σ = 0, W = 1)");
+    has(&out, "no redundant constraints (σ = 0, W = 1)");
     assert_eq!(ran("lint nowhere.xml").0, Some(2));
     // Mechanism files have names, too.
     let (code, out, _) = ran("lint gripper-10");
@@ -183,7 +183,7 @@ fn nothing_redundant_is_said_at_once() {
     let text = legs(4);
     let (code, out, _) = run_on("lint", "m.xml", &text, &[]);
     assert_eq!(code, Some(0), "{out}");
-    has(&out, "nothing is redundant (σ = 0, W = 12)");
+    has(&out, "no redundant constraints (σ = 0, W = 12)");
     let more = ["--nodes", "20000", "--top", "3", "--allow-output-change"];
     let (code, out, told) = run_on("search", "m.xml", &text, &more);
     assert_eq!(code, Some(0), "{told}");
@@ -220,7 +220,7 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
     );
     has(
         &out,
-        &format!("{welded}: nothing is redundant: nothing can move"),
+        &format!("{welded}: no redundant constraints: nothing can move"),
     );
     has(&out, "2 redundant constraints");
     has(&err, "bad.urdf");
@@ -237,7 +237,10 @@ fn lint_goes_on_over_files_that_cannot_be_looked_at() {
 fn what_cannot_move_has_nothing_redundant() {
     let (code, out, err) = run_on("lint", "w.urdf", WELDED, &[]);
     assert_eq!((code, err.as_str()), (Some(0), ""));
-    has(&out, "nothing is redundant: nothing can move: all 2 links");
+    has(
+        &out,
+        "no redundant constraints: nothing can move: all 2 links",
+    );
     let (code, out, _) = run_on("lint", "w.urdf", WELDED, &["--format", "json"]);
     assert_eq!(code, Some(0));
     let v: Value = serde_json::from_str(&out).unwrap();

@@ -6,20 +6,16 @@ use crate::catalog::build::{build, work};
 use crate::catalog::spec::{Parallel, Spec};
 use crate::catalog::store::Store;
 use crate::chains::{Input, PairKind, Symmetry};
-use crate::cli::option::Global;
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, interrupt, output};
+use crate::cli::prelude::*;
 use crate::file::disk;
 use crate::file::text::MAX_BYTES;
 use crate::shard::Shard;
 use crate::view::catalog::structures::built_text;
-use anyhow::{Context, ensure};
-use clap::{Args as ClapArgs, ValueHint};
+use serde::Serialize;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
 
-#[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Build {
+#[derive(Debug, ClapArgs, Serialize)]
+pub(crate) struct Build {
     /// Numbers of links, such as 4..8 (the last included); chains of mobility 1 have an even number, with gears and slots any.
     #[arg(long, value_name = "N..M")]
     links: Option<String>,
@@ -28,10 +24,12 @@ pub(in crate::cli) struct Build {
     jaws: Option<usize>,
     /// Motion of the driver: slide, turn [default: both].
     #[arg(long, value_name = "INPUT", value_delimiter = ',', value_parser = input)]
+    #[serde(rename = "inputs")]
     input: Vec<Input>,
     /// Symmetries of the layouts: generic, mirror (with a slide), half-turn (with a turning input), threefold (three jaws, in a
     /// plane with a turning input, about an axis with a slide) [default: all].
     #[arg(long, value_name = "SYMMETRY", value_delimiter = ',', value_parser = symmetry)]
+    #[serde(rename = "symmetries")]
     symmetry: Vec<Symmetry>,
     /// Layouts with each jaw on a parallelogram: with, without or only.
     #[arg(long, value_name = "WORD", value_parser = parallel)]
@@ -67,12 +65,15 @@ pub(in crate::cli) struct Build {
     crossings: Option<usize>,
     /// File with all these settings, in TOML; options on the command line take precedence.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[serde(skip)]
     spec: Option<PathBuf>,
     /// Build only part I of N, counted from 1; `ozols catalog merge` merges the parts.
     #[arg(long, value_name = "I/N")]
+    #[serde(skip)]
     shard: Option<Shard>,
     /// Database to write; an existing one of the same catalogue is completed.
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[serde(skip)]
     output: PathBuf,
     // Last: what follows would stand under its heading in the help.
     #[command(flatten)]
@@ -91,43 +92,33 @@ fn parallel(text: &str) -> Result<Parallel, String> {
     word(text, &Parallel::ALL)
 }
 
-/// Replaces a list by the given one, unless that is empty.
-fn put_list<T: Clone>(there: &mut Vec<T>, given: &[T]) {
-    if !given.is_empty() {
-        there.clear();
-        there.extend_from_slice(given);
+/// Puts given settings over others; false and empty lists are not given.
+fn overlay(under: &mut toml::Value, given: toml::Value) {
+    match (under, given) {
+        (toml::Value::Table(under), toml::Value::Table(given)) => {
+            for (key, x) in given {
+                overlay(under.entry(key).or_insert(x.clone()), x);
+            }
+        }
+        (_, toml::Value::Boolean(false)) => {}
+        (_, toml::Value::Array(list)) if list.is_empty() => {}
+        (under, x) => *under = x,
     }
 }
 
 impl Build {
-    /// Returns the maximum number of pairs that are not hinges, among those asked for.
-    fn most_of(&self, spec: &Spec) -> anyhow::Result<usize> {
+    /// Puts what is given in its place.
+    fn put(&self, spec: &mut Spec) -> anyhow::Result<()> {
+        let mut all = toml::Value::try_from(&*spec)?;
+        overlay(&mut all, toml::Value::try_from(self)?);
+        *spec = all.try_into()?;
+        if let Some([from, to]) = self.task.widths {
+            (spec.task.narrowest, spec.task.widest) = (from, to);
+        }
         ensure!(
             self.at_most.is_none() || !spec.pairs.is_empty(),
             "--at-most limits pairs that are not hinges; name them with --pairs, such as --pairs slide,gear,slot"
         );
-        Ok(self.at_most.unwrap_or(spec.at_most))
-    }
-
-    /// Puts what is given in its place.
-    fn put(&self, spec: &mut Spec) -> anyhow::Result<()> {
-        if let Some(links) = &self.links {
-            spec.links.clone_from(links);
-        }
-        put_list(&mut spec.inputs, &self.input);
-        put_list(&mut spec.symmetries, &self.symmetry);
-        put_list(&mut spec.pairs, &self.pairs);
-        put_list(&mut spec.options, &self.options);
-        put_list(&mut spec.unloading, &self.unloading);
-        spec.parallel = self.parallel.unwrap_or(spec.parallel);
-        spec.generic_pairs |= self.generic_pairs;
-        spec.classics |= self.classics;
-        spec.at_most = self.most_of(spec)?;
-        spec.jaws = self.jaws.unwrap_or(spec.jaws);
-        spec.ideas = self.ideas.unwrap_or(spec.ideas);
-        spec.ratio = self.ratio.unwrap_or(spec.ratio);
-        spec.crossings = self.crossings.unwrap_or(spec.crossings);
-        self.task.put(&mut spec.task);
         Ok(())
     }
 
@@ -208,16 +199,10 @@ pub(super) fn run(args: &Global, a: &Build) -> anyhow::Result<Done> {
 
 /// Reports how much a catalogue holds after `added` entries were added, and whether it was interrupted.
 pub(super) fn built(store: &Store, path: &Path, added: usize, what: &str) -> anyhow::Result<Done> {
-    output::to(None, |out| {
-        let text = built_text(store, path, added, what, output::width(None))?;
-        write!(out, "{text}")?;
-        if interrupt::pending() {
-            let path = path.display();
-            writeln!(
-                out,
-                "\nInterrupted: the same command continues with {path}."
-            )?;
-        }
-        Ok(Done::Found)
-    })
+    let mut text = built_text(store, path, added, what, output::width(None))?;
+    if interrupt::pending() {
+        let path = path.display();
+        text += &format!("\nInterrupted: the same command continues with {path}.\n");
+    }
+    output::put(None, text)
 }

@@ -5,20 +5,13 @@ use crate::chains::PairKind;
 use crate::chains::census::{census, pair_census};
 use crate::chains::enumerate::{ChainsError, chains, count_chains};
 use crate::chains::sharing::Menu;
-use crate::cli::option::{Global, TextJsonOrCsv};
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, output};
-use crate::format::csv::records;
+use crate::cli::prelude::*;
 use crate::view::catalog::counts::{
-    ChainData, chains_text, hinged_row, hinged_text, pair_rows, pair_text,
+    CountRow, chain_row, chains_text, hinged_row, hinged_text, pair_rows, pair_text,
 };
-use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
-use itertools::Itertools;
+use crate::view::catalog::query::QueryAnswer;
 use rayon::prelude::*;
-use serde::Serialize;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
 
 #[derive(Debug, ClapArgs)]
 struct PairArgs {
@@ -91,32 +84,27 @@ struct Listing {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextJsonOrCsv,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 impl Listing {
     /// Writes what was found, one row each, or as `text` for a terminal of some width.
-    fn give<T: Serialize>(
+    fn give(
         &self,
-        all: &[T],
-        text: impl Fn(&[T], Option<u16>) -> String,
+        all: &[CountRow],
+        text: impl Fn(&[CountRow], Option<u16>) -> String,
     ) -> anyhow::Result<Done> {
-        let path = self.output.as_deref();
-        output::to(path, |out| {
-            match self.format {
-                TextJsonOrCsv::Text => write!(out, "{}", text(all, output::width(path)))?,
-                TextJsonOrCsv::Json => output::json(out, &all)?,
-                TextJsonOrCsv::Csv => write!(out, "{}", records(all))?,
-            }
-            Ok(Done::Found)
+        self.to.put(match self.format {
+            TextJsonOrCsv::Text => text(all, self.to.width()),
+            TextJsonOrCsv::Json => output::json(&all)?,
+            TextJsonOrCsv::Csv => QueryAnswer::of(all).csv(),
         })
     }
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Count {
+pub(crate) struct Count {
     /// Number of links, or a range such as 4..10, its end included.
     #[arg(long, value_name = "N..M", default_value = "4..8", value_parser = links)]
     links: RangeInclusive<usize>,
@@ -130,7 +118,7 @@ pub(in crate::cli) struct Count {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Chains {
+pub(crate) struct Chains {
     /// Number of links.
     #[arg(long, value_name = "N", default_value_t = 8)]
     links: usize,
@@ -198,6 +186,6 @@ pub(super) fn list(a: &Chains) -> anyhow::Result<Done> {
         a.links
     );
     let found = chains(a.links, a.listing.mobility)?;
-    let all: Vec<ChainData> = found.par_iter().map(ChainData::new).collect();
+    let all: Vec<CountRow> = found.par_iter().map(chain_row).collect();
     a.listing.give(&all, chains_text)
 }

@@ -5,17 +5,10 @@ use crate::builtin;
 use crate::catalog::drawn::{DrawnMechanism, drawn, id};
 use crate::catalog::spec::Spec;
 use crate::catalog::store::Store;
-use crate::cli::option::named::{Loops, Named};
-use crate::cli::option::{Global, load};
-use crate::cli::terminal::progress::Bar;
-use crate::cli::terminal::{Done, interrupt, output};
-use crate::model::mechanism::Mechanism;
-use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::PathBuf;
+use crate::cli::prelude::*;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct SearchDrawn {
+pub(crate) struct SearchDrawn {
     /// Mechanism files, robot files, or names of built-in mechanisms. Each is searched with its own options and workload.
     #[arg(value_hint = ValueHint::FilePath)]
     files: Vec<Named>,

@@ -5,24 +5,20 @@ use crate::api::Scheme;
 use crate::catalog::find::entries;
 use crate::catalog::neighbours::neighbours;
 use crate::catalog::store::Store;
-use crate::cli::option::named::File;
-use crate::cli::option::{TextJsonOrCsv, load};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
+use crate::format::plain;
 use crate::page::catalogue::catalogue;
 use crate::redundancy::analysis::exact_field;
 use crate::search::Search;
 use crate::search::check::variant_mechanism;
 use crate::search::question::conditions::Conditions;
 use crate::synthesis::recognize::recognize;
-use crate::view::catalog::find::{FoundData, InCatalogue, found_text};
+use crate::view::catalog::find::{FoundData, InCatalogue};
 use crate::view::catalog::query::QueryAnswer;
-use crate::view::catalog::structures::{StructureData, show_text};
-use anyhow::{Context, ensure};
-use clap::{Args as ClapArgs, ValueHint};
-use std::path::{Path, PathBuf};
+use crate::view::catalog::structures::StructureData;
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Query {
+pub(crate) struct Query {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -33,9 +29,8 @@ pub(in crate::cli) struct Query {
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
     format: TextJsonOrCsv,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
     // Last: what follows would stand under its heading in the help.
     #[command(flatten)]
     wanted: WantedGrippers,
@@ -71,23 +66,16 @@ pub(super) fn query(a: &Query) -> anyhow::Result<Done> {
     if answer.rows.is_empty() && a.wanted.is_any() {
         output::note(&a.wanted.in_the_way(&store)?);
     }
-    let path = a.output.as_deref();
-    output::to(path, |out| {
-        match a.format {
-            TextJsonOrCsv::Text => write!(out, "{}", answer.text(output::width(path)))?,
-            TextJsonOrCsv::Json => output::json(out, &answer)?,
-            TextJsonOrCsv::Csv => write!(out, "{}", answer.csv())?,
-        }
-        Ok(if answer.rows.is_empty() {
-            Done::Nothing
-        } else {
-            Done::Found
-        })
-    })
+    a.to.put(match a.format {
+        TextJsonOrCsv::Text => answer.text(a.to.width()),
+        TextJsonOrCsv::Json => output::json(&answer)?,
+        TextJsonOrCsv::Csv => answer.csv(),
+    })?;
+    Ok(Done::found(!answer.rows.is_empty()))
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Show {
+pub(crate) struct Show {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -99,9 +87,8 @@ pub(in crate::cli) struct Show {
     /// Also write its kinematic scheme to a file.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
@@ -110,25 +97,26 @@ pub(super) fn show(a: &Show) -> anyhow::Result<Done> {
     if let Some(picture) = &a.svg {
         let mechanism = crate::from_toml(&laid_out(&store, &a.file, &id)?)?;
         let drawn = crate::api::draw(&mechanism, Scheme::Kinematic)?;
-        output::to(Some(picture), |out| {
-            out.write_all(drawn.as_bytes())?;
-            Ok(Done::Found)
-        })?;
+        output::put(Some(picture), drawn)?;
     }
     let data = StructureData::read(&store, &id)?;
-    let path = a.output.as_deref();
-    output::to(path, |out| {
-        if a.json {
-            output::json(out, &data)?;
-        } else {
-            write!(out, "{}", show_text(&data, &a.file, output::width(path)))?;
-        }
-        Ok(Done::Found)
-    })
+    if a.json {
+        return a.to.put(output::json(&data)?);
+    }
+    let mut text = data.text(a.to.width());
+    if !data.has_layout() {
+        return a.to.put(text);
+    }
+    let file = plain::plain(&a.file.display().to_string()).into_owned();
+    let export = format!("ozols catalog export {file} {id}");
+    text += &format!(
+        "\nThe mechanism, and with idea 1 carried out:\n\n  {export} -o gripper.toml\n  {export} --idea 1 -o redesign.toml\n"
+    );
+    a.to.put(text)
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Export {
+pub(crate) struct Export {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -140,9 +128,8 @@ pub(in crate::cli) struct Export {
     /// Format: toml, json, urdf, mjcf, sdf, dot or graphml.
     #[arg(long, value_name = "FORMAT", default_value = "toml")]
     to: String,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    out: ToFile,
 }
 
 pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
@@ -164,14 +151,11 @@ pub(super) fn export(a: &Export) -> anyhow::Result<Done> {
             crate::cli::command::export::text(&made, &a.to, None)?
         }
     };
-    output::to(a.output.as_deref(), |out| {
-        out.write_all(text.as_bytes())?;
-        Ok(Done::Found)
-    })
+    a.out.put(text)
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Page {
+pub(crate) struct Page {
     /// The database.
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
@@ -183,14 +167,11 @@ pub(in crate::cli) struct Page {
 pub(super) fn page(a: &Page) -> anyhow::Result<Done> {
     let store = open(&a.file)?;
     let page = catalogue(&store, &a.file.display().to_string())?;
-    output::to(Some(&a.output), |out| {
-        out.write_all(page.as_bytes())?;
-        Ok(Done::Found)
-    })
+    output::put(Some(&a.output), page)
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Find {
+pub(crate) struct Find {
     #[command(flatten)]
     file: File,
     /// Catalogue to search for the structure.
@@ -199,9 +180,8 @@ pub(in crate::cli) struct Find {
     /// JSON instead of text.
     #[arg(long)]
     json: bool,
-    /// Write to a file instead of standard output.
-    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    to: ToFile,
 }
 
 pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
@@ -228,17 +208,10 @@ pub(super) fn find(a: &Find) -> anyhow::Result<Done> {
         })
     });
     let data = FoundData::new(&found, &part, known.transpose()?);
-    let path = a.output.as_deref();
-    output::to(path, |out| {
-        if a.json {
-            output::json(out, &data)?;
-        } else {
-            write!(out, "{}", found_text(&m.name, &data, output::width(path)))?;
-        }
-        Ok(if data.is_known() {
-            Done::Found
-        } else {
-            Done::Nothing
-        })
-    })
+    a.to.put(if a.json {
+        output::json(&data.json())?
+    } else {
+        data.text(&m.name, a.to.width())
+    })?;
+    Ok(Done::found(data.is_known()))
 }

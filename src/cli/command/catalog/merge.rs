@@ -2,15 +2,11 @@
 
 use super::build::built;
 use crate::catalog::store::{Merged, Store};
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::shard::Shard;
-use anyhow::ensure;
-use clap::{Args as ClapArgs, ValueHint};
-use itertools::Itertools;
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Merge {
+pub(crate) struct Merge {
     /// Parts to merge.
     #[arg(required = true, value_hint = ValueHint::FilePath)]
     parts: Vec<PathBuf>,

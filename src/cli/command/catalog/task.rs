@@ -1,14 +1,16 @@
 //! The task of a catalogue as options: part widths, grip, motion, force and room.
 
-use crate::synthesis::task::{Aim, AskedMotion, HeldFrom, Task};
+use crate::synthesis::task::{Aim, AskedMotion, HeldFrom};
 use clap::Args as ClapArgs;
+use serde::Serialize;
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, ClapArgs, Serialize)]
 #[command(next_help_heading = "Task")]
 pub(super) struct TaskArgs {
     /// Range of part widths in mm, as MIN..MAX [default: 0..50].
     #[arg(long, value_name = "A..B", value_parser = widths)]
-    widths: Option<[f64; 2]>,
+    #[serde(skip)]
+    pub(super) widths: Option<[f64; 2]>,
     /// Side from which parts are held: outside, or inside a hole [default: outside].
     #[arg(long, value_name = "SIDE", value_parser = side)]
     grip: Option<HeldFrom>,
@@ -49,28 +51,6 @@ pub(super) struct TaskArgs {
     /// [default: balanced].
     #[arg(long, value_name = "AIM", value_parser = aim)]
     aim: Option<Aim>,
-}
-
-impl TaskArgs {
-    /// Replaces settings of a task by those given.
-    pub(super) fn put(&self, task: &mut Task) {
-        if let Some([from, to]) = self.widths {
-            (task.narrowest, task.widest) = (from, to);
-        }
-        task.grip = self.grip.unwrap_or(task.grip);
-        task.motion = self.motion.unwrap_or(task.motion);
-        task.least_force = self.least_force.unwrap_or(task.least_force);
-        task.force_ratio = self.force_ratio.unwrap_or(task.force_ratio);
-        task.transmission = self.transmission.unwrap_or(task.transmission);
-        task.pin_force = self.pin_force.unwrap_or(task.pin_force);
-        task.efficiency = self.efficiency.unwrap_or(task.efficiency);
-        task.room = self.room.unwrap_or(task.room);
-        task.pin_distance = self.pin_distance.unwrap_or(task.pin_distance);
-        task.reach = self.reach.unwrap_or(task.reach);
-        task.own_sides |= self.own_sides;
-        task.pulled_out = self.pulled_out.unwrap_or(task.pulled_out);
-        task.aim = self.aim.unwrap_or(task.aim);
-    }
 }
 
 /// Parses two numbers with a sign between them.

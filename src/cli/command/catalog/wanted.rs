@@ -1,9 +1,7 @@
 //! Conditions on the grippers that are listed, as options of `ozols catalog query`.
 
 use crate::catalog::store::{Store, StoreError};
-use crate::format::significant;
-use clap::Args as ClapArgs;
-use itertools::Itertools;
+use crate::cli::prelude::*;
 use serde_json::Value;
 
 #[derive(Debug, ClapArgs)]

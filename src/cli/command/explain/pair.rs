@@ -1,14 +1,11 @@
 //! The reference of joint types.
 
 use crate::cli::option::picture;
-use crate::cli::terminal::{Done, output};
+use crate::cli::prelude::*;
 use crate::draw::{self, Size};
-use crate::format::{cost, plural};
+use crate::format::cost;
 use crate::model::joint_type::{Freedom, JointType};
 use crate::terms::PairWords;
-use crate::view::terminal::layout::table;
-use itertools::Itertools;
-use std::path::Path;
 
 /// Width of running text, in columns, if the output is not a terminal.
 const COLUMNS: u16 = 100;
@@ -24,17 +21,12 @@ pub(super) fn all(width: Option<u16>) -> String {
     let rows = JointType::NAMED.iter().map(|t| {
         let freedoms = t.freedoms().iter().map(|f| f.name()).join(" ");
         let made_as = words.get(t.name()).and_then(|w| w.hardware.first());
-        vec![
-            t.name().to_owned(),
-            t.trade_names().join(", "),
-            t.class().to_owned(),
-            freedoms,
-            cost(t.default_cost_milli()),
-            made_as.cloned().unwrap_or_default(),
-        ]
+        let (also, cost) = (t.trade_names().join(", "), cost(t.default_cost_milli()));
+        let made_as = made_as.map_or("", String::as_str);
+        cells([&t.name(), &also, &t.class(), &freedoms, &cost, &made_as])
     });
-    let head = ["joint type", "also", "class", "freedoms", "cost", "made as"];
-    table(&head, rows.collect(), width)
+    let head = "joint type | also | class | freedoms | cost | made as";
+    table(head, rows, width)
 }
 
 /// Explains one joint type; writes its picture to a file if one is given.
@@ -48,26 +40,17 @@ pub(super) fn explain(of: &JointType, file: Option<&Path>) -> anyhow::Result<Don
     };
     let width = usize::from(output::width(None).unwrap_or(COLUMNS).min(COLUMNS));
     let needs = !w.reference.starts_with("does not matter");
-    output::to(None, |out| {
-        writeln!(
-            out,
-            "{}\n\n{}\n",
-            of.name(),
-            textwrap::fill(&w.about, width)
-        )?;
-        for line in figures(of, w, width) {
-            writeln!(out, "{line}")?;
-        }
-        writeln!(out, "\n{}", example(of, needs))?;
-        if needs {
-            let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what you want.";
-            writeln!(out, "\n{}", textwrap::fill(guess, width))?;
-        }
-        if file.is_none() {
-            writeln!(out, "\nozols explain {} -o {0}.svg draws it.", of.name())?;
-        }
-        Ok(Done::Found)
-    })
+    let (name, about) = (of.name(), textwrap::fill(&w.about, width));
+    let figures = figures(of, w, width).join("\n");
+    let mut out = format!("{name}\n\n{about}\n\n{figures}\n\n{}\n", example(of, needs));
+    if needs {
+        let guess = "Without a reference, x is the first of the global axes that is not along z, which may not be what you want.";
+        out += &format!("\n{}\n", textwrap::fill(guess, width));
+    }
+    if file.is_none() {
+        out += &format!("\nozols explain {name} -o {name}.svg draws it.\n");
+    }
+    output::put(None, out)
 }
 
 /// Writes the picture of a joint type to a file, as PNG if its name ends in .png.
@@ -79,10 +62,7 @@ fn draw_to(of: &JointType, path: &Path) -> anyhow::Result<()> {
     } else {
         drawing.svg.into_bytes()
     };
-    output::to(Some(path), |out| {
-        out.write_all(&bytes)?;
-        Ok(Done::Found)
-    })?;
+    output::put(Some(path), bytes)?;
     Ok(())
 }
 

@@ -1,11 +1,10 @@
 //! The arguments of `ozols statics`.
 
-use crate::cli::option::named::{Loops, Named};
-use clap::{Args as ClapArgs, ValueEnum, ValueHint};
-use std::path::PathBuf;
+use crate::cli::prelude::*;
+use crate::view::statics::told::ToldStatics;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum StaticsMethod {
+pub(crate) enum StaticsMethod {
     /// The δ-point method, for four-link groups with a closed loop.
     Delta,
     /// Its projective form.
@@ -17,7 +16,7 @@ pub(in crate::cli) enum StaticsMethod {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum StaticsFormat {
+pub(crate) enum StaticsFormat {
     Text,
     Json,
     /// One line per joint.
@@ -25,50 +24,71 @@ pub(in crate::cli) enum StaticsFormat {
 }
 
 #[derive(Debug, ClapArgs)]
-pub(in crate::cli) struct Statics {
+pub(crate) struct Statics {
     /// Path, `-`, or name of a built-in mechanism [default with --stability: parallel-shears].
     #[arg(value_name = "FILE", required_unless_present = "stability", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) file: Option<Named>,
+    pub(crate) file: Option<Named>,
     #[command(flatten)]
-    pub(in crate::cli) loops: Loops,
+    pub(crate) loops: Loops,
     /// Method for the reactions of four-link groups with a closed loop.
     #[arg(long, value_enum, default_value = "all")]
-    pub(in crate::cli) method: StaticsMethod,
+    pub(crate) method: StaticsMethod,
     /// Range of the first drive as FROM:TO:STEPS, for example 0:360deg:72 [default: the file's stroke]. Numbers without a unit
     /// are radians, or the file's length unit for sliding drives.
     #[arg(long, value_name = "FROM:TO:STEPS", allow_hyphen_values = true)]
-    pub(in crate::cli) stroke: Option<String>,
+    pub(crate) stroke: Option<String>,
     /// State of the file.
     #[arg(long, default_value = "free")]
-    pub(in crate::cli) state: String,
+    pub(crate) state: String,
     /// In a state that [workload.grip] loads: part whose contact forces load the jaws, in the file's unit [default: the hardest
     /// to hold].
     #[arg(long, value_name = "D")]
-    pub(in crate::cli) diameter: Option<f64>,
+    pub(crate) diameter: Option<f64>,
     /// Model the mechanism in its plane (normal z), even if the file is spatial.
     #[arg(long)]
-    pub(in crate::cli) planar: bool,
+    pub(crate) planar: bool,
     /// Compute all six components of each joint's reaction, even with redundant constraints [default if a mechanism is not planar
     /// or not determinate in its plane].
     #[arg(long, conflicts_with_all = ["planar", "groups", "stability", "svg"])]
-    pub(in crate::cli) spatial: bool,
+    pub(crate) spatial: bool,
     /// Let contacts with a clamped part only push, with the friction and faces of [[workload.contact]]. Otherwise they are the
     /// joints of the file, and the report lists those that would pull.
     #[arg(long, conflicts_with_all = ["groups", "stability", "svg"])]
-    pub(in crate::cli) unilateral: bool,
+    pub(crate) unilateral: bool,
     /// Print only the Assur groups, under each possible drive.
     #[arg(long, conflicts_with_all = ["stability", "svg", "stroke"])]
-    pub(in crate::cli) groups: bool,
+    pub(crate) groups: bool,
     /// Compare the methods with exact arithmetic near each of their failures; charts and tables go to the folder of -o.
     #[arg(long, requires = "output", conflicts_with = "svg")]
-    pub(in crate::cli) stability: bool,
+    pub(crate) stability: bool,
     /// Output format.
     #[arg(long, value_enum, default_value = "text")]
-    pub(in crate::cli) format: StaticsFormat,
+    pub(crate) format: StaticsFormat,
     /// Also write charts of the cycle to this folder.
     #[arg(long, value_name = "DIR")]
-    pub(in crate::cli) svg: Option<PathBuf>,
+    pub(crate) svg: Option<PathBuf>,
     /// Write to a file instead of standard output; a folder with --stability.
     #[arg(long, short, value_name = "FILE")]
-    pub(in crate::cli) output: Option<PathBuf>,
+    pub(crate) output: Option<PathBuf>,
+}
+
+impl Statics {
+    /// Writes a text.
+    pub(crate) fn put(&self, text: String) -> anyhow::Result<Done> {
+        output::put(self.output.as_deref(), text)
+    }
+
+    /// Writes reactions in the format asked for; a text ends with what to do next.
+    pub(crate) fn put_reactions(
+        &self,
+        shown: &ToldStatics<'_>,
+        next: &[NextCommand],
+    ) -> anyhow::Result<Done> {
+        let width = output::width(self.output.as_deref());
+        self.put(match self.format {
+            StaticsFormat::Json => output::json(&shown.json())?,
+            StaticsFormat::Csv => shown.csv(),
+            StaticsFormat::Text => shown.text(width) + &next_commands::text(next, width),
+        })
+    }
 }

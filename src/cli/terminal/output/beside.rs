@@ -25,12 +25,12 @@ fn beside() -> MutexGuard<'static, (Option<PathBuf>, BTreeSet<PathBuf>)> {
 static CUT: AtomicBool = AtomicBool::new(false);
 
 /// Marks all further output as incomplete.
-pub(in crate::cli) fn cut_short() {
+pub(crate) fn cut_short() {
     CUT.store(true, Ordering::SeqCst);
 }
 
 /// Removes the file that is being written, if one is.
-pub(in crate::cli) fn abandon() {
+pub(crate) fn abandon() {
     if let Some(path) = beside().0.take() {
         let _ = std::fs::remove_file(path);
     }

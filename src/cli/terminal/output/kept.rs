@@ -18,13 +18,13 @@ fn written() -> MutexGuard<'static, Vec<PathBuf>> {
 }
 
 /// Forgets what was read and written: a command begins.
-pub(in crate::cli) fn begin() {
+pub(crate) fn begin() {
     disk::forget();
     written().clear();
 }
 
 /// Keeps a file that is read by others than this program's own reader.
-pub(in crate::cli) fn keep(path: &Path) {
+pub(crate) fn keep(path: &Path) {
     disk::note(path);
 }
 
@@ -32,7 +32,7 @@ pub(in crate::cli) fn keep(path: &Path) {
 ///
 /// # Errors
 /// Returns an error if standard output is the same file.
-pub(in crate::cli) fn keep_standard_input() -> anyhow::Result<()> {
+pub(crate) fn keep_standard_input() -> anyhow::Result<()> {
     if let Some(file) = standard(std::io::stdin()) {
         disk::note_open(&file);
     }
@@ -40,12 +40,12 @@ pub(in crate::cli) fn keep_standard_input() -> anyhow::Result<()> {
 }
 
 /// Returns true if a file is protected, under any name.
-pub(in crate::cli) fn is_kept(path: &Path) -> bool {
+pub(crate) fn is_kept(path: &Path) -> bool {
     disk::was_read(path)
 }
 
 /// Refuses outputs, each with the name of its option, of which one would take the place of another.
-pub(in crate::cli) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
+pub(crate) fn distinct(outputs: &[(&str, PathBuf)]) -> anyhow::Result<()> {
     let to_standard = standard(std::io::stdout());
     for (option, path) in outputs {
         let shown = path.display();
@@ -82,7 +82,7 @@ fn is_device(path: &Path) -> bool {
 }
 
 /// Refuses to write over what is kept, over a catalogue, and over what this command has written already.
-pub(in crate::cli) fn apart(path: &Path) -> anyhow::Result<()> {
+pub(crate) fn apart(path: &Path) -> anyhow::Result<()> {
     let name = path.display();
     ensure!(
         !is_kept(path),

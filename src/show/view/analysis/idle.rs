@@ -1,13 +1,10 @@
 //! What idle motions and faults of the drives are, in words.
 
-use crate::format::{plural, plural_of};
-use crate::model::mechanism::Mechanism;
 use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::motion::DriveFault;
-use itertools::Itertools;
+use crate::view::prelude::*;
 
 /// "link 5 spins about the line through 4-5 and 5-1".
-#[must_use]
 pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
     let names = motion
         .links
@@ -37,7 +34,6 @@ pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
 }
 
 /// Neighbours that read alike told once, with how often.
-#[must_use]
 pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
     let alike = motions.dedup_with_count();
     alike
@@ -50,7 +46,7 @@ pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
 
 /// Returns a fault of the drives: `immobile`, `surplus`, `dependent`, `locked` or `dead-point`, the joint of a locked drive, and all that
 /// in words.
-pub(super) fn fault<'a>(
+pub fn drive_fault<'a>(
     mechanism: &'a Mechanism,
     fault: &DriveFault,
 ) -> (&'static str, Option<&'a str>, String) {

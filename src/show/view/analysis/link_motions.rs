@@ -1,16 +1,14 @@
 //! The motions of links and the wrenches of joints, in words and as data.
 
 use crate::geom::vector::{Vector, add, cross, dot, length, real, scale, unit};
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::link_motion::LinkMotion;
 use crate::redundancy::stress_loads::Borne;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// A component of a direction, or a part of a length, below this is rounding.
 const ROUNDING: f64 = 1e-6;
 
 /// Returns the motion of a link relative to another one as data; the twists (ω; v) are about the origin, in the file's unit of length.
-#[must_use]
 pub(super) fn json(m: &Mechanism, of: &LinkMotion) -> Value {
     json!({
         "link": m.links[of.link].id,
@@ -22,7 +20,6 @@ pub(super) fn json(m: &Mechanism, of: &LinkMotion) -> Value {
 }
 
 /// Returns the line about it: "p relative to 0 (in this pose): three translations".
-#[must_use]
 pub(super) fn line(m: &Mechanism, of: &LinkMotion) -> String {
     let [link, to] = [of.link, of.relative_to].map(|l| &m.links[l].id);
     format!("{link} relative to {to} (in this pose): {}", words(m, of))
@@ -89,7 +86,6 @@ fn turns(mechanism: &Mechanism, of: &LinkMotion) -> Option<String> {
 /// Returns the wrench of a joint in words, as motions are named: "moment about x", "force along z through (0, 1, 0) m", or "wrench along
 /// z, pitch 2 m". A line without a place goes through the joint's point. The moment is in units of force times `size`, a length in the
 /// file's unit.
-#[must_use]
 pub(super) fn wrench(m: &Mechanism, joint: JointId, borne: &Borne, size: f64) -> String {
     let Borne { force, moment } = *borne;
     if length(force) < ROUNDING * length(moment) {

@@ -1,17 +1,13 @@
 //! What a mechanism file describes, in a few lines and without any analysis.
 
-use crate::format::{grouped, plural, significant};
-use crate::model::mechanism::{Mechanism, Mode, Role, StateId};
 use crate::view::analysis::mobility::StructureSize;
-use crate::view::span;
-use itertools::Itertools;
+use crate::view::prelude::*;
 use num_bigint::BigUint;
 
 /// Names shown of a list.
 const SHOWN: usize = 12;
 
 /// The links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
-#[must_use]
 pub fn describe(m: &Mechanism, across: f64) -> Vec<String> {
     let mut out = vec![links(m, across), joints(m), states(m), search(m)];
     out.extend(workload(m));

@@ -2,9 +2,8 @@
 
 use crate::closure::Closure;
 use crate::geom::Reals;
-use crate::model::mechanism::{Mechanism, Mode, StateId};
 use crate::rank::method::{Answer, MobilityMethod};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// What a method says of states of a mechanism.
 #[derive(Debug)]
@@ -32,7 +31,6 @@ impl ByMethod<'_> {
     }
 
     /// Returns it as data.
-    #[must_use]
     pub fn json(&self) -> Value {
         let state = |(name, size, [mobility, redundant]): (&str, StructureSize, [i64; 2])| {
             json!({
@@ -55,7 +53,6 @@ impl ByMethod<'_> {
     }
 
     /// Returns it for people, with what the answers are worth, where the method is from and what it takes.
-    #[must_use]
     pub fn text(&self) -> String {
         let (name, about) = (&self.mechanism.name, self.method.about());
         let line = |(state, size, [mobility, redundant]): (&str, StructureSize, [i64; 2])| {
@@ -89,7 +86,6 @@ pub struct StructureSize {
 
 impl StructureSize {
     /// The numbers of a state.
-    #[must_use]
     pub fn of(mechanism: &Mechanism, state: StateId) -> StructureSize {
         let mut links: Vec<_> = mechanism
             .joints_in(state)

@@ -1,13 +1,12 @@
 //! What to do after an analysis.
 
 use super::State;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::search::answer::single_changes::USUAL_UNLOADING;
 use crate::view::analysis::suggestions::{Advice, concerned};
+use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 
 /// What to do after an analysis of `file`.
-#[must_use]
 pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand> {
     let mut steps: Vec<NextCommand> = states.iter().filter_map(|s| to_remove(s, file)).collect();
     if !steps.is_empty() {
@@ -52,12 +51,12 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
             let state = if n == StateId::new(1) {
                 String::new()
             } else {
-                format!(" --state {}", word(&s.found.state))
+                format!(" {}", flag("state", word(&s.found.state)))
             };
             Some(NextCommand::new(
                 "search",
                 file,
-                &format!("--max-external {left}{state}"),
+                &(flag("max-external", left) + &state),
                 &format!("redesigns that leave at most {left} of the {of} external, too"),
             ))
         }
@@ -67,7 +66,10 @@ fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
                 s.found.state,
                 USUAL_UNLOADING.name()
             ),
-            gives: "so that `ozols search` may insert it; --max-external N asks for it".to_owned(),
+            gives: format!(
+                "so that `ozols search` may insert it; {} asks for it",
+                flag("max-external", "N")
+            ),
         }),
         (true, _) => None,
     }

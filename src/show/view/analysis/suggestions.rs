@@ -1,14 +1,10 @@
 //! Single changes in words and as data, and what to do after an analysis.
 
-use crate::format::cost;
 use crate::geom::exact::ExactError;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::Certainty;
 use crate::redundancy::analysis::StateAnalysis;
 use crate::search::answer::single_changes::{self, Suggestion, single_changes};
-use crate::view::terminal::layout::table;
-use itertools::Itertools;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// Rows of a table at most.
 const ROWS: usize = 5;
@@ -29,7 +25,6 @@ pub enum Advice {
 }
 
 /// How many redundant constraints of a state suggestions are about: its own, or those it adds.
-#[must_use]
 pub fn concerned(s: &StateAnalysis) -> usize {
     match &s.external {
         None => s.redundant,
@@ -68,7 +63,6 @@ pub fn advise(
 }
 
 /// Returns the advice on a state of a mechanism as data.
-#[must_use]
 pub(super) fn json(m: &Mechanism, s: &StateAnalysis, advice: &Advice) -> Value {
     let found = match advice {
         Advice::Nothing => return Value::Null,
@@ -132,7 +126,6 @@ fn kind(s: &StateAnalysis) -> &'static str {
 }
 
 /// Returns the best single changes as a table, or that there are none.
-#[must_use]
 pub(super) fn text(
     m: &Mechanism,
     s: &StateAnalysis,
@@ -158,14 +151,10 @@ pub(super) fn text(
         );
     }
     // The list is sorted, and so are the groups by their firsts.
-    /// What a change is, what it removes and what it costs.
-    type Kind = (String, usize, i64);
-    let mut groups: Vec<(Kind, Vec<&str>)> = Vec::new();
+    let mut groups: Vec<((String, usize, i64), Vec<&str>)> = Vec::new();
     for x in &found.list {
-        let (key, joint) = (
-            (words(m, x), x.removes, x.cost_milli),
-            &*m.joints[x.joint].id,
-        );
+        let key = (words(m, x), x.removes, x.cost_milli);
+        let joint = &*m.joints[x.joint].id;
         match groups.iter_mut().find(|(k, _)| *k == key) {
             Some((_, joints)) => joints.push(joint),
             None => groups.push((key, vec![joint])),
@@ -173,27 +162,28 @@ pub(super) fn text(
     }
     let rest = match groups.len().saturating_sub(ROWS) {
         0 => String::new(),
-        n => format!("\n  and {n} more; --format json lists them"),
+        n => format!("\n  and {n} more; {} lists them", flag("format", "json")),
     };
-    let rows = groups.into_iter().take(ROWS);
+    let rows = groups.iter().take(ROWS);
     let rows = rows.map(|((what, removes, milli), joints)| {
         let more = match joints.len().saturating_sub(JOINTS) {
             0 => String::new(),
             n => format!(" and {n} more"),
         };
-        vec![
-            format!("{}{more}", joints.iter().take(JOINTS).join(", ")),
-            what,
-            format!("{removes} of {}{}", concerned(s), kind(s)),
-            cost(milli),
-        ]
+        let joints = joints.iter().take(JOINTS).join(", ") + &more;
+        let removes = format!("{removes} of {}{}", concerned(s), kind(s));
+        cells([&joints, what, &removes, &cost(*milli)])
     });
-    let at = if found.list.len() == 1 {
-        "at"
+    let one_of = if found.list.len() == 1 {
+        ""
     } else {
-        "at (one of)"
+        " (one of)"
     };
-    let body = table(&[at, "change", "removes", "cost"], rows.collect(), width);
+    let body = table(
+        &format!("at{one_of} | change | removes | cost"),
+        rows,
+        width,
+    );
     let loose = if found.state != StateId::FREE {
         "\n  (the pad of an unloading joint hangs loose while nothing is held)"
     } else {

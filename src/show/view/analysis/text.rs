@@ -1,17 +1,13 @@
 //! An analysis for people: the verdict first, then where each figure comes from.
 
 use super::{Analysis, State, agrees, axes, harm};
-use crate::format::{list, plural, plural_of};
 use crate::model::claim::Topic;
-use crate::model::mechanism::{LinkId, Role};
 use crate::redundancy::analysis::{ContourShare, CouplingShare, External};
 use crate::redundancy::stress::{JointWrench, SelfStress, StressVerdict};
 use crate::view::analysis::{idle, link_motions, suggestions};
-use crate::view::terminal::layout::{fit, table};
-use crate::view::{as_read, claims, span};
-use itertools::Itertools;
+use crate::view::claims;
+use crate::view::prelude::*;
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 /// Motions told at most; JSON has all.
 const MOTIONS: usize = 6;
@@ -19,16 +15,14 @@ const MOTIONS: usize = 6;
 impl Analysis<'_> {
     /// Returns the analysis without its stroke, fitted to a terminal of `width` columns if one is given: what is redundant, what moves, and
     /// what to change. With `verbose` it also has the counts behind W and σ, the method, the self-stresses and published claims.
-    #[must_use]
     pub fn text(&self, width: Option<u16>, verbose: bool) -> String {
         let states = self.states.iter().map(|s| {
-            let mut out = String::new();
-            // Writing to a string cannot fail.
-            let _ = s.write(&mut out, width, verbose);
-            if let Some(advice) = s.advice {
-                out += &suggestions::text(s.mechanism, s.found, advice, width);
-            }
-            out
+            let mut out = Report::new(width);
+            s.write(&mut out, verbose);
+            let advice = s
+                .advice
+                .map(|x| suggestions::text(s.mechanism, s.found, x, width));
+            out.text() + &advice.unwrap_or_default()
         });
         let published = claims::about(&self.mechanism.claims, Topic::Structure);
         let published = if verbose {
@@ -41,199 +35,160 @@ impl Analysis<'_> {
 }
 
 impl State<'_> {
-    fn write(&self, out: &mut String, width: Option<u16>, verbose: bool) -> std::fmt::Result {
+    fn write(&self, out: &mut Report, verbose: bool) {
         let (m, s) = (self.mechanism, self.found);
-        writeln!(
-            out,
-            "{}, state {}: {}, mobility {}\n",
-            m.name,
-            s.state,
-            self.verdict(),
-            self.mobility_figure()
-        )?;
+        let (name, state, w) = (&m.name, &s.state, self.mobility_figure());
+        out.line(format!(
+            "{name}, state {state}: {}, mobility {w}\n",
+            self.verdict()
+        ));
         if verbose {
-            self.write_counts(out)?;
+            self.write_counts(out);
         } else if s.finite.figure() != s.mobility.to_string() || !s.finite.is_proven() {
-            writeln!(out, "  {}", self.finite())?;
-        }
-        for fault in self.drive_faults() {
-            writeln!(out, "  {fault}")?;
+            out.line(format!("  {}", self.finite()));
         }
         let motions = self.motions();
-        for motion in motions.iter().take(MOTIONS) {
-            writeln!(out, "  motion of {}", link_motions::line(m, motion))?;
-        }
-        if let Some(more) = motions.len().checked_sub(MOTIONS).filter(|n| *n > 0) {
-            writeln!(out, "  and of {more} more outputs (--format json has all)")?;
-        }
-        for motion in self.idle_motions() {
-            writeln!(out, "  idle: {motion}")?;
-        }
-        for line in self.left_out() {
-            writeln!(out, "  {line}")?;
-        }
-        writeln!(out, "  {}", self.certainty())?;
+        let shown = motions.iter().take(MOTIONS);
+        let shown = shown.map(|of| format!("motion of {}", link_motions::line(m, of)));
+        let more = motions.len().saturating_sub(MOTIONS);
+        let json = flag("format", "json");
+        let more = (more > 0).then(|| format!("and of {more} more outputs ({json} has all)"));
+        let idle = self
+            .idle_motions()
+            .into_iter()
+            .map(|of| format!("idle: {of}"));
+        let lines = self.drive_faults().chain(shown).chain(more).chain(idle);
+        let lines = lines.chain(self.left_out()).chain([self.certainty()]);
+        lines.for_each(|line| out.line(format!("  {line}")));
         // What was done to the coordinates matters to everyone.
         if verbose || !s.snapped.is_empty() || s.as_written.is_some() || s.at_most().is_some() {
-            for line in self.method_lines() {
-                writeln!(out, "  {line}")?;
-            }
+            self.method_lines()
+                .for_each(|line| out.line(format!("  {line}")));
         }
-        self.write_shares(out, width)?;
+        self.write_shares(out);
         if let Some(e) = &s.external {
             let disagree = if agrees(e) { "" } else { "  -- THESE DISAGREE" };
-            writeln!(
-                out,
-                "\n  External: σ = {} = {}; by rank {}{disagree}",
-                formula(e),
-                e.redundant,
-                e.by_rank
-            )?;
+            let (formula, sigma, rank) = (formula(e), e.redundant, e.by_rank);
+            out.line(format!(
+                "\n  External: σ = {formula} = {sigma}; by rank {rank}{disagree}"
+            ));
         }
         if verbose {
-            return self.write_self_stresses(out, width);
+            return self.write_self_stresses(out);
         }
-        let stresses = &s.self_stresses;
-        let harmless = stresses
-            .iter()
-            .filter(|t| t.verdict == StressVerdict::Harmless)
-            .count();
-        match (stresses.len(), harmless) {
-            (0, _) => Ok(()),
-            (1, 0) => writeln!(out, "  It strains the joints if parts are inaccurate."),
-            (all, 0) => writeln!(
-                out,
-                "  All {all} strain the joints if parts are inaccurate."
-            ),
-            (all, n) => writeln!(
-                out,
+        let harmless = |t: &&SelfStress| t.verdict == StressVerdict::Harmless;
+        let (all, harmless) = (
+            s.self_stresses.len(),
+            s.self_stresses.iter().filter(harmless).count(),
+        );
+        match (all, harmless) {
+            (0, _) => {}
+            (1, 0) => out.line("  It strains the joints if parts are inaccurate."),
+            (all, 0) => out.line(format!("  All {all} strain the joints if parts are inaccurate.")),
+            (all, n) => out.line(format!(
                 "  {} of {all} strain the joints if parts are inaccurate; {n} are harmless: contacts share friction.",
                 all - n
-            ),
+            )),
         }
     }
 
-    /// What was counted, and W and σ from that.
-    fn write_counts(&self, out: &mut String) -> std::fmt::Result {
+    /// Adds the counts, and W and σ from them.
+    fn write_counts(&self, out: &mut Report) {
         let s = self.found;
-        let (rows, f) = (s.rows, s.freedoms);
+        let (rows, f, rank) = (s.rows, s.freedoms, s.rank);
         let couplings = match s.per_coupling.len() {
             0 => String::new(),
             c => format!(", c = {}", plural(c, "coupling")),
         };
-        writeln!(
-            out,
-            "  n = {}, p = {}, k = {}, f = {}{couplings}\n  \
-             rank of the {rows} x {f} closure matrix: {}\n  \
-             W = f - rank = {} (in this pose): working {}, local {}\n  \
+        let (n, p) = (plural(s.links, "link"), plural(s.joints, "joint"));
+        let (k, freedoms) = (plural(s.contours, "contour"), plural(f, "freedom"));
+        let [w, working, local] = [s.mobility, s.working_mobility, s.local_mobility];
+        out.line(format!(
+            "  n = {n}, p = {p}, k = {k}, f = {freedoms}{couplings}\n  \
+             rank of the {rows} x {f} closure matrix: {rank}\n  \
+             W = f - rank = {w} (in this pose): working {working}, local {local}\n  \
              {}\n  \
              σ = {rows} - rank = {}  (= W + {rows} - f)",
-            plural(s.links, "link"),
-            plural(s.joints, "joint"),
-            plural(s.contours, "contour"),
-            plural(f, "freedom"),
-            s.rank,
-            s.mobility,
-            s.working_mobility,
-            s.local_mobility,
             self.finite(),
             s.redundant
-        )?;
+        ));
         if let Some([m, n, s, t]) = self.gogu() {
-            writeln!(
-                out,
+            out.line(format!(
                 "  in Gogu's symbols: M = {m}, N = {n}, S = {s}, T = {t}"
-            )?;
+            ));
         }
         if self.counting_is_wrong() {
-            writeln!(
-                out,
+            out.line(format!(
                 "  counting alone (Malyshev's formula) says {}, wrong by the redundant constraints",
                 s.formula_mobility
-            )?;
+            ));
         }
-        Ok(())
     }
 
-    /// The shares of contours and couplings in σ.
-    fn write_shares(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+    /// Adds the shares of contours and couplings in σ.
+    fn write_shares(&self, out: &mut Report) {
         let contour = |c: &ContourShare| {
-            let joints = c.contour.joints.iter();
-            vec![
-                c.contour.name(self.mechanism),
-                joints.map(|(j, _)| self.joint(*j)).join(", "),
-                c.redundant.to_string(),
-                in_any_order(c),
-                in_any_basis(c),
-            ]
+            let joints = c
+                .contour
+                .joints
+                .iter()
+                .map(|(j, _)| self.joint(*j))
+                .join(", ");
+            let name = c.contour.name(self.mechanism);
+            cells([
+                &name,
+                &joints,
+                &c.redundant,
+                &in_any_order(c),
+                &in_any_basis(c),
+            ])
         };
         let coupling = |c: &CouplingShare| {
-            let [redundant, any] = [c.redundant.to_string(), span(0, c.most)];
-            vec![
-                "coupling".to_owned(),
-                c.name.clone(),
-                redundant,
-                any.clone(),
-                any,
-            ]
+            let any = span(0, c.most);
+            cells([&"coupling", &c.name, &c.redundant, &any, &any])
         };
         let (contours, couplings) = (&self.found.per_contour, &self.found.per_coupling);
         let shares = contours.iter().map(contour);
         let shares = shares.chain(couplings.iter().map(coupling)).collect_vec();
-        if shares.is_empty() {
-            return Ok(());
+        if !shares.is_empty() {
+            out.line("");
+            out.table(
+                "contour | joints | σ in this order | in any order | in any basis",
+                shares,
+            );
         }
-        let head = [
-            "contour",
-            "joints",
-            "σ in this order",
-            "in any order",
-            "in any basis",
-        ];
-        writeln!(out, "\n{}", table(&head, shares, width))
     }
 
-    fn write_self_stresses(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
+    fn write_self_stresses(&self, out: &mut Report) {
         let stresses = &self.found.self_stresses;
         if stresses.is_empty() {
-            return Ok(());
+            return;
         }
-        let head = [
-            "self-stress in contour",
-            "simplest at",
-            "acts as",
-            "",
-            "shared by joints, part of Σ |F|² + |M|²/ℓ²",
-        ];
         let row = |t: &SelfStress| {
             let (contours, couplings) = (self.contours_of(t), self.couplings_of(t));
-            let mut contours = contours.iter().map(String::as_str).chain(couplings);
+            let in_contours = contours
+                .iter()
+                .map(String::as_str)
+                .chain(couplings)
+                .join(" + ");
             let (joint, what) = self.simplest(t).unwrap_or_default();
-            vec![
-                contours.join(" + "),
-                joint.to_owned(),
-                what,
-                harm(t).to_owned(),
-                self.borne(t),
-            ]
+            cells([&in_contours, &joint, &what, &harm(t), &self.borne(t)])
         };
-        let rows = stresses.iter().map(row).collect();
-        writeln!(
-            out,
-            "\n{}\n  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction",
-            table(&head, rows, width)
-        )
+        out.line("");
+        out.table(
+            "self-stress in contour | simplest at | acts as |  | shared by joints, part of Σ |F|² + |M|²/ℓ²",
+            stresses.iter().map(row),
+        );
+        out.line("  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction");
     }
 
     /// W, a range where rounded coordinates do not decide.
-    #[must_use]
     pub(crate) fn mobility_figure(&self) -> String {
         let (s, most) = (self.found, self.found.at_most());
         span(s.mobility, most.map_or(s.mobility, |(w, _)| w))
     }
 
     /// The answer in a few words.
-    #[must_use]
     pub fn verdict(&self) -> String {
         let least = self.found.redundant;
         if let Some((_, most)) = self.found.at_most() {
@@ -271,7 +226,6 @@ impl State<'_> {
     }
 
     /// The finite mobility and how it is known.
-    #[must_use]
     pub fn finite(&self) -> String {
         let finite = &self.found.finite;
         let certainty = as_read(self.mechanism, finite.describe());
@@ -279,7 +233,6 @@ impl State<'_> {
     }
 
     /// Whether Malyshev's formula gives another mobility than the rank.
-    #[must_use]
     pub(crate) fn counting_is_wrong(&self) -> bool {
         i64::try_from(self.found.mobility) != Ok(self.found.formula_mobility)
     }
@@ -287,11 +240,10 @@ impl State<'_> {
     /// Returns the faults of the drives in words.
     pub(crate) fn drive_faults(&self) -> impl Iterator<Item = String> {
         let faults = self.found.drives.iter();
-        faults.map(|f| idle::fault(self.mechanism, f).2)
+        faults.map(|f| idle::drive_fault(self.mechanism, f).2)
     }
 
     /// Idle motions in words, those that read alike told once.
-    #[must_use]
     pub(crate) fn idle_motions(&self) -> Vec<String> {
         let words = |i| idle::words(self.mechanism, i);
         idle::told_once(self.found.idle.iter().map(words))
@@ -353,7 +305,6 @@ impl State<'_> {
     }
 
     /// Returns what a self-stress is called in a drawing, counted from 0: "self-stress 1: moment about y at 0-1 (harmful)".
-    #[must_use]
     pub fn name(&self, place: usize) -> String {
         let t = &self.found.self_stresses[place];
         let (joint, what) = self.simplest(t).unwrap_or_default();
@@ -392,16 +343,8 @@ pub(crate) fn in_any_basis(c: &ContourShare) -> String {
 
 /// Returns where the σ that a state adds comes from: "12 constraints - (1 - 0) - 0 lost mobilities".
 pub(crate) fn formula(e: &External) -> String {
-    format!(
-        "{} - ({} - {}) - {} lost {}",
-        plural_of(&e.constraints.to_string(), "constraint"),
-        e.actual_mobility,
-        e.working_mobility,
-        e.lost_mobility,
-        if e.lost_mobility == 1 {
-            "mobility"
-        } else {
-            "mobilities"
-        }
-    )
+    let constraints = plural_of(&e.constraints.to_string(), "constraint");
+    let (actual, working, lost) = (e.actual_mobility, e.working_mobility, e.lost_mobility);
+    let noun = if lost == 1 { "mobility" } else { "mobilities" };
+    format!("{constraints} - ({actual} - {working}) - {lost} lost {noun}")
 }

@@ -4,48 +4,19 @@ use crate::chains::census::{Census, Counted, DriveKind, Grippers, Kinds};
 use crate::chains::chain::Chain;
 use crate::chains::graph6;
 use crate::chains::roles::Subject;
-use crate::format::grouped;
-use crate::view::terminal::layout::{fit, table};
-use itertools::Itertools;
-use serde::ser::SerializeStruct;
-use serde::{Serialize, Serializer};
+use crate::view::catalog::query::bare;
+use crate::view::prelude::*;
+use serde_json::Map;
 use std::collections::BTreeMap;
 
-/// A cell of a row.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[serde(untagged)]
-enum CountCell {
-    Number(Option<u64>),
-    Word(&'static str),
-}
-
 /// A row of counts: the keys are a stable contract, in their order.
-#[derive(Debug, Clone)]
-pub struct CountRow(Vec<(&'static str, CountCell)>);
+pub type CountRow = Map<String, Value>;
 
-impl Serialize for CountRow {
-    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-        let mut row = s.serialize_struct("CountRow", self.0.len())?;
-        for (key, cell) in &self.0 {
-            row.serialize_field(key, cell)?;
-        }
-        row.end()
-    }
-}
-
-impl CountRow {
-    fn new(cells: impl IntoIterator<Item = (&'static str, Option<u64>)>) -> CountRow {
-        let cells = cells.into_iter();
-        CountRow(cells.map(|(key, n)| (key, CountCell::Number(n))).collect())
-    }
-
-    fn number(&self, key: &str) -> Option<u64> {
-        let found = self.0.iter().find(|(k, _)| *k == key)?;
-        match found.1 {
-            CountCell::Number(n) => n,
-            CountCell::Word(_) => None,
-        }
-    }
+fn row_of<K: Into<String>, V: Into<Value>>(cells: impl IntoIterator<Item = (K, V)>) -> CountRow {
+    cells
+        .into_iter()
+        .map(|(key, x)| (key.into(), x.into()))
+        .collect()
 }
 
 /// The counts of chains of hinges, each a key and its name: those of chains, of grippers with two jaws, and of grippers with three.
@@ -91,7 +62,6 @@ fn named(text: &'static str) -> impl Iterator<Item = (&'static str, &'static str
 }
 
 /// Returns the row of one number of links. Without a census, it has only the number of chains.
-#[must_use]
 pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Census>) -> CountRow {
     let of = |count: fn(&Census) -> u64| census.map(count);
     let counted = [
@@ -109,7 +79,7 @@ pub fn hinged_row(links: usize, mobility: usize, chains: u64, census: Option<&Ce
     let counted = named(OF_HINGES).map(|(key, _)| key).zip(counted);
     let sizes = [("links", links), ("mobility", mobility)];
     let sizes = sizes.map(|(key, n)| (key, Some(n as u64)));
-    CountRow::new(sizes.into_iter().chain(counted))
+    row_of(sizes.into_iter().chain(counted))
 }
 
 const HINGED_LEGEND: &str = "\
@@ -123,91 +93,66 @@ and jaws move, and the jaws against each other.
 ";
 
 /// Returns a table with a column for each number of links, without rows that have no counts.
-#[must_use]
 pub fn hinged_text(all: &[CountRow], width: Option<u16>) -> String {
-    let links = all.iter().filter_map(|row| row.number("links"));
-    let heads = links.map(|n| format!("{n} links")).collect_vec();
-    let heads = std::iter::once("").chain(heads.iter().map(String::as_str));
+    let heads = all
+        .iter()
+        .map(|row| format!(" | {} links", row["links"]))
+        .collect::<String>();
     let cell = |n: Option<u64>| n.map_or_else(|| "-".to_owned(), grouped);
     let rows = named(OF_HINGES).filter_map(|(key, name)| {
-        let of = all.iter().map(|row| row.number(key)).collect_vec();
+        let of = all.iter().map(|row| row[key].as_u64()).collect_vec();
         let counted = of.iter().any(Option::is_some);
         let cells = of.into_iter().map(cell);
         counted.then(|| std::iter::once(name.to_owned()).chain(cells).collect())
     });
     format!(
         "{}\n\n{}",
-        table(&heads.collect_vec(), rows.collect(), width),
+        table(&heads, rows, width),
         fit(HINGED_LEGEND, width)
     )
 }
 
-/// One chain: the keys are a stable contract, in this order.
-#[derive(Debug, Clone, Serialize)]
-pub struct ChainData {
-    code: String,
-    links: usize,
-    joints: usize,
-    mobility: usize,
-    /// Links by their number of joints: "4x2 4x3".
-    assortment: String,
-    automorphisms: usize,
-    frames: u64,
-    inputs: u64,
-    drives: u64,
-}
-
-impl ChainData {
-    /// Returns the data of a chain in canonical numbering.
-    #[must_use]
-    pub fn new(chain: &Chain) -> ChainData {
-        let degrees = (0..chain.links())
-            .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
-            .counts();
-        let some = degrees.into_iter().sorted();
-        let automorphisms = chain.canonical().1;
-        let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
-        ChainData {
-            code: graph6::write(chain),
-            links: chain.links(),
-            joints: chain.joints().len(),
-            mobility: chain.mobility(),
-            assortment: some
-                .map(|(joints, links)| format!("{links}x{joints}"))
-                .join(" "),
-            automorphisms: automorphisms.len(),
-            frames: c.frames,
-            inputs: c.inputs,
-            drives: c.inputs_at_frame,
-        }
-    }
+/// Returns the row of a chain in canonical numbering. Its assortment is its links by their number of joints: "4x2 4x3".
+pub fn chain_row(chain: &Chain) -> CountRow {
+    let degrees = (0..chain.links())
+        .map(|u| (0..chain.links()).filter(|&v| chain.joined(u, v)).count())
+        .counts();
+    let some = degrees.into_iter().sorted();
+    let assortment = some
+        .map(|(joints, links)| format!("{links}x{joints}"))
+        .join(" ");
+    let automorphisms = chain.canonical().1;
+    let c = Census::of_hinges(&Subject::new(chain, &automorphisms), false);
+    row_of([
+        ("code", json!(graph6::write(chain))),
+        ("links", json!(chain.links())),
+        ("joints", json!(chain.joints().len())),
+        ("mobility", json!(chain.mobility())),
+        ("assortment", json!(assortment)),
+        ("automorphisms", json!(automorphisms.len())),
+        ("frames", json!(c.frames)),
+        ("inputs", json!(c.inputs)),
+        ("drives", json!(c.inputs_at_frame)),
+    ])
 }
 
 /// Returns a table of chains.
-#[must_use]
-pub fn chains_text(all: &[ChainData], width: Option<u16>) -> String {
-    let heads = [
-        "chain",
+pub fn chains_text(all: &[CountRow], width: Option<u16>) -> String {
+    let heads = "chain | joints | links | symmetries | frames | inputs | drives";
+    let keys = [
+        "code",
         "joints",
-        "links",
-        "symmetries",
+        "assortment",
+        "automorphisms",
         "frames",
         "inputs",
         "drives",
     ];
-    let row = |c: &ChainData| {
-        let numbers = [c.frames, c.inputs, c.drives].map(|n| n.to_string());
-        let first = [c.code.clone(), c.joints.to_string(), c.assortment.clone()];
-        let symmetries = c.automorphisms.to_string();
-        first
-            .into_iter()
-            .chain([symmetries])
-            .chain(numbers)
-            .collect()
-    };
-    let rows = all.iter().map(row).collect();
+    let rows = all
+        .iter()
+        .map(|row| keys.iter().map(|key| bare(&row[*key])).collect());
     let note = "Chain: graph6 of the canonical numbering. Links: 4x2 are four with two joints.\n";
-    format!("{}\n\n{}", table(&heads, rows, width), fit(note, width))
+    format!("{}\n\n{}", table(heads, rows, width), fit(note, width))
 }
 
 /// The four places of an input and the jaws, in the order of columns: at the frame or between, apart or driven.
@@ -238,7 +183,6 @@ fn word(holds: bool, [yes, no]: [&'static str; 2]) -> &'static str {
 }
 
 /// Returns the rows of one number of links, one for each choice of kinds and drive. The counts of chains are repeated for each drive.
-#[must_use]
 pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
     let drives = PLACES.into_iter().cartesian_product([false, true]);
     let row = |kinds: &Kinds, c: &Census, ((between, jaw), slides): ((bool, bool), bool)| {
@@ -267,15 +211,12 @@ pub fn pair_rows(links: usize, all: &BTreeMap<Kinds, Census>) -> Vec<CountRow> {
             ("jaws", word(jaw, ["driven", "apart"])),
             ("input", word(slides, ["slide", "turn"])),
         ];
-        let sizes = sizes.map(|(key, n)| (key, n as u64));
-        let mut out = CountRow::new(sizes.into_iter().chain(chains).map(|(k, n)| (k, Some(n))));
-        out.0
-            .extend(words.map(|(key, word)| (key, CountCell::Word(word))));
-        let grippers = named(OF_PAIRS)
-            .zip(PAIRED)
-            .map(|((key, _), of)| (key, Some(g[of])));
-        out.0.extend(CountRow::new(grippers).0);
-        out
+        let sizes = sizes.map(|(key, n)| (key, json!(n))).into_iter();
+        let chains = chains.map(|(key, n)| (key, json!(n)));
+        let words = words.map(|(key, word)| (key, json!(word)));
+        let grippers = named(OF_PAIRS).zip(PAIRED);
+        let grippers = grippers.map(|((key, _), of)| (key, json!(g[of])));
+        row_of(sizes.chain(chains).chain(words).chain(grippers))
     };
     let rows = all.iter().cartesian_product(drives);
     rows.map(|((kinds, c), drive)| row(kinds, c, drive))
@@ -292,7 +233,6 @@ and input joint in place. Mirror, half turn: they move so in places so symmetric
 ";
 
 /// Returns the counts of each number of links as a paragraph and a table.
-#[must_use]
 pub fn pair_text(all: &[(usize, BTreeMap<Kinds, Census>)], width: Option<u16>) -> String {
     let mut out = String::new();
     for (links, cells) in all {
@@ -333,10 +273,10 @@ fn grippers(sum: &Census, width: Option<u16>) -> String {
         let place = word(between, ["between", "at frame"]);
         format!("{place}, {}", word(jaw, ["driven", "apart"]))
     });
-    let heads = std::iter::once("grippers of two jaws").chain(heads.iter().map(String::as_str));
+    let heads = format!("grippers of two jaws | {}", heads.join(" | "));
     let rows = named(OF_PAIRS).zip(PAIRED).map(|((_, name), of)| {
         let cells = columns.iter().map(|g| grouped(g[of]));
         std::iter::once(name.to_owned()).chain(cells).collect()
     });
-    table(&heads.collect_vec(), rows.collect(), width)
+    table(&heads, rows, width)
 }

@@ -8,49 +8,22 @@ use crate::chains::classics::{Classic, classics_of};
 use crate::chains::motion::moves_throughout;
 use crate::chains::roles::{Roles, Subject, Symmetries};
 use crate::chains::structure::PairStructure;
-use crate::format::significant;
 use crate::synthesis::recognize::Recognized;
-use crate::view::terminal::layout::fit;
-use itertools::Itertools;
-use serde::Serialize;
+use crate::view::prelude::*;
 
-/// What a mechanism is as a structure: the keys are a stable contract, in this order.
-#[derive(Debug, Clone, Serialize)]
-pub struct FoundData {
-    /// The same for two mechanisms exactly where their structures are the same.
-    name: String,
-    /// 2; 3 where there are three sides that are alike, of which what follows has two; 1 where three jaws are not.
-    sides: usize,
-    links: usize,
-    hinges: usize,
-    slides: usize,
-    gears: usize,
-    slots: usize,
-    /// Whether what turns by them is a screw, and they are nuts on its threads.
-    threaded: bool,
-    /// `frame` or `between`.
-    place: &'static str,
-    /// `turn` or `slide`.
-    input: &'static str,
-    /// `apart` or `driven`.
-    jaws: &'static str,
-    /// Whether it has one motion in nearly all places, in which every two links move, and gears have carriers; what stands
-    /// below is null where it has not.
-    in_count: bool,
-    essential: Option<bool>,
-    /// The links of the smaller part that holds all roles, where there is one.
-    essential_part: Option<Vec<String>>,
-    translating: Option<bool>,
-    mirror: Option<bool>,
-    mirror_but_input: Option<bool>,
-    half_turn: Option<bool>,
-    half_turn_but_input: Option<bool>,
-    /// Well-known schemes of this structure, or where it is not essential of its essential part.
+/// What a mechanism is as a structure.
+#[derive(Debug)]
+pub struct FoundData<'a> {
+    found: &'a Recognized,
+    /// The links of the smallest part that holds all roles.
+    part: &'a [usize],
+    /// Whether its jaws only translate, and its symmetries. `None` if it does not have one motion in nearly all places in which
+    /// every two links move, or a gear has no carrier.
+    motion: Option<(bool, Symmetries)>,
+    /// Well-known schemes of this structure, or of its essential part if it is not essential.
     classics: Vec<&'static Classic>,
-    /// Entries of the catalogue that was asked; null where none was.
-    catalogue: Option<Vec<Entry>>,
-    /// What of that catalogue is next to it: the most gain first.
-    neighbours: Option<Vec<Neighbour>>,
+    /// What the catalogue that was asked has of it.
+    known: Option<InCatalogue>,
 }
 
 /// What a catalogue has of a structure.
@@ -62,67 +35,178 @@ pub struct InCatalogue {
     pub neighbours: Vec<Neighbour>,
 }
 
-impl FoundData {
-    /// Of a mechanism's structure and the smallest part of it that holds all roles, given by its links, with what a catalogue has
-    /// of this part, where one was asked.
-    #[must_use]
-    pub fn new(found: &Recognized, part: &[usize], known: Option<InCatalogue>) -> FoundData {
+impl<'a> FoundData<'a> {
+    /// Finds what is known of a mechanism's structure and of the smallest part of it that holds all roles, given by its links.
+    pub fn new(found: &'a Recognized, part: &'a [usize], known: Option<InCatalogue>) -> Self {
         let PairStructure { chain, roles } = &found.structure;
-        let in_count = chain.has_carriers() && moves_throughout(chain);
         let automorphisms = chain.automorphisms();
         let subject = Subject::new(chain, &automorphisms);
-        let essential = part.len() == chain.links();
+        let moves = chain.has_carriers() && moves_throughout(chain);
         let threaded = found.made_as.threaded;
-        let symmetries = in_count.then(|| symmetries(&subject, roles, threaded));
-        let flat = if found.made_as.flat {
+        let symmetries = || symmetries(&subject, roles, threaded);
+        let key = found.structure.part(part).key();
+        FoundData {
+            motion: moves.then(|| (subject.is_translating(roles), symmetries())),
+            classics: classics_of(&key, found.made_as).collect(),
+            found,
+            part,
+            known,
+        }
+    }
+
+    /// Returns true if something is known by it: a well-known scheme, or an entry of the catalogue asked.
+    pub fn is_known(&self) -> bool {
+        let known = self.known.as_ref();
+        !self.classics.is_empty() || known.is_some_and(|k| !k.entries.is_empty())
+    }
+
+    /// Returns the number of hinges, slides, gears and slots.
+    fn pairs(&self) -> [usize; 4] {
+        let chain = &self.found.structure.chain;
+        let flat = if self.found.made_as.flat {
             chain.flat_slots().len()
         } else {
             0
         };
         let kinds = Kinds::of_chain(chain).with_flat(flat);
-        let slides = found.structure.slides();
-        let names = || part.iter().map(|&l| found.names[l].join("+")).collect();
-        let key = found.structure.part(part).key();
-        let classics = classics_of(&key, found.made_as);
-        let (entries, neighbours) = known.map(|k| (k.entries, k.neighbours)).unzip();
-        FoundData {
-            name: found.structure.name(),
-            sides: found.sides(),
-            links: chain.links(),
-            hinges: chain.count(PairKind::Hinge),
-            slides: kinds.slides,
-            gears: kinds.gears,
-            slots: kinds.slots_made(),
-            threaded,
-            place: if roles.is_driven_from_frame() {
-                "frame"
-            } else {
-                "between"
-            },
-            input: if slides { "slide" } else { "turn" },
-            jaws: if roles.has_driven_jaw() {
-                "driven"
-            } else {
-                "apart"
-            },
-            in_count,
-            essential: in_count.then_some(essential),
-            essential_part: (in_count && !essential).then(names),
-            translating: in_count.then(|| subject.is_translating(roles)),
-            mirror: symmetries.map(|s| s.mirror),
-            mirror_but_input: symmetries.map(|s| s.mirror_but_input),
-            half_turn: symmetries.map(|s| s.half_turn),
-            half_turn_but_input: symmetries.map(|s| s.half_turn_but_input),
-            classics: classics.collect(),
-            catalogue: entries,
-            neighbours,
-        }
+        let hinges = chain.count(PairKind::Hinge);
+        [hinges, kinds.slides, kinds.gears, kinds.slots_made()]
     }
 
-    /// Whether something is known by it: a well-known scheme, or an entry of the catalogue asked.
-    #[must_use]
-    pub fn is_known(&self) -> bool {
-        !self.classics.is_empty() || self.catalogue.as_ref().is_some_and(|c| !c.is_empty())
+    /// Returns the links of the smaller part that holds all roles, if there is one.
+    fn smaller_part(&self) -> Option<Vec<String>> {
+        let smaller = self.part.len() < self.found.structure.chain.links();
+        let names = self.part.iter().map(|&l| self.found.names[l].join("+"));
+        smaller.then(|| names.collect())
+    }
+
+    /// Returns all of it as data: the keys are a stable contract, in this order.
+    pub fn json(&self) -> Value {
+        let (found, roles) = (self.found, &self.found.structure.roles);
+        let [hinges, slides, gears, slots] = self.pairs();
+        let either = |holds, yes: &'static str, no| if holds { yes } else { no };
+        let symmetries = self.motion.map(|m| m.1);
+        let smaller = self.motion.and_then(|_| self.smaller_part());
+        json!({
+            "name": found.structure.name(),
+            // 3 if three sides are alike, of which what follows has two; 1 if there are three jaws that are not.
+            "sides": found.sides(),
+            "links": found.structure.chain.links(),
+            "hinges": hinges,
+            "slides": slides,
+            "gears": gears,
+            "slots": slots,
+            // Whether what turns by them is a screw, and they are nuts on its threads.
+            "threaded": found.made_as.threaded,
+            "place": either(roles.is_driven_from_frame(), "frame", "between"),
+            "input": either(found.structure.slides(), "slide", "turn"),
+            "jaws": either(roles.has_driven_jaw(), "driven", "apart"),
+            "in_count": self.motion.is_some(),
+            "essential": self.motion.map(|_| smaller.is_none()),
+            "essential_part": smaller,
+            "translating": self.motion.map(|m| m.0),
+            "mirror": symmetries.map(|s| s.mirror),
+            "mirror_but_input": symmetries.map(|s| s.mirror_but_input),
+            "half_turn": symmetries.map(|s| s.half_turn),
+            "half_turn_but_input": symmetries.map(|s| s.half_turn_but_input),
+            "classics": self.classics,
+            "catalogue": self.known.as_ref().map(|k| &k.entries),
+            "neighbours": self.known.as_ref().map(|k| &k.neighbours),
+        })
+    }
+
+    /// Returns a paragraph on each of structure, scheme and catalogue.
+    pub fn text(&self, name: &str, width: Option<u16>) -> String {
+        let (found, roles) = (self.found, &self.found.structure.roles);
+        let nut = if found.made_as.threaded {
+            "nut"
+        } else {
+            "gear pair"
+        };
+        let nouns = self
+            .pairs()
+            .into_iter()
+            .zip(["hinge", "slide", nut, "slot"]);
+        let pairs = nouns
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, noun)| plural(n, noun));
+        let input = if found.structure.slides() {
+            "slide"
+        } else {
+            "hinge"
+        };
+        let place = if roles.is_driven_from_frame() {
+            "at the frame"
+        } else {
+            "between moving links"
+        };
+        let jaws = if roles.has_driven_jaw() {
+            "one of whose links is a jaw"
+        } else {
+            "apart from the jaws"
+        };
+        let mut out = Report::new(width);
+        out.line(format!(
+            "{name}: {} links, {}. The input is a {input} {place}, {jaws}.",
+            found.structure.chain.links(),
+            pairs.format(", ")
+        ));
+        match found.sides() {
+            1 => out.line("It has three jaws."),
+            3 => out.line("It has three equal sides: all this is of two of them."),
+            _ => {}
+        }
+        out.line(format!("Structure: {}", found.structure.name()));
+        out.line(self.motion_text());
+        for classic in &self.classics {
+            out.line(format!("Known as {}: {}.", classic.id, classic.about));
+        }
+        let Some(known) = &self.known else {
+            return out.text();
+        };
+        if known.entries.is_empty() {
+            out.line("The catalogue does not have it.");
+        }
+        for entry in &known.entries {
+            let (id, form) = (&entry.id, &entry.form);
+            out.line(format!("In the catalogue: {id}, laid out as {form}."));
+        }
+        out.text() + &fit(&neighbours_text(&known.neighbours), width)
+    }
+
+    /// Returns how it moves in nearly all places.
+    fn motion_text(&self) -> String {
+        let Some((translating, s)) = self.motion else {
+            return "In nearly all places of its joints it has no motion, more than one, or two links that keep together, or a gear pair \
+                 without a carrier: such structures are not counted. It moves by its special shape, if it does."
+                .to_owned();
+        };
+        let essential = match self.smaller_part() {
+            Some(links) => format!(
+                "Not essential: {} alone move input and jaws alike",
+                links.join(", ")
+            ),
+            None => "Essential: no smaller moving part holds frame, input and jaws".to_owned(),
+        };
+        let flag = |strict: bool, but: bool, word: &str| match (strict, but) {
+            (true, _) => Some(word.to_owned()),
+            (_, true) => Some(format!("{word} except for the input")),
+            _ => None,
+        };
+        let symmetric = [
+            flag(s.mirror, s.mirror_but_input, "mirror"),
+            flag(s.half_turn, s.half_turn_but_input, "half turn"),
+        ];
+        let symmetric = match symmetric.into_iter().flatten().join(", ") {
+            none if none.is_empty() => "none".to_owned(),
+            some => some,
+        };
+        let jaws = if translating {
+            "keep their attitude in nearly all places"
+        } else {
+            "turn in nearly all places (on parallelograms they do not)"
+        };
+        format!("{essential}.\nSymmetric layouts: {symmetric}. The jaws {jaws}.")
     }
 }
 
@@ -136,95 +220,6 @@ fn symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Symmetrie
         },
         own => own,
     }
-}
-
-/// A paragraph on each of structure, scheme and catalogue.
-#[must_use]
-pub fn found_text(name: &str, d: &FoundData, width: Option<u16>) -> String {
-    let several = |n: usize, word: &str| match n {
-        0 => None,
-        1 => Some(format!("1 {word}")),
-        _ => Some(format!("{n} {word}s")),
-    };
-    let pairs = [
-        several(d.hinges, "hinge"),
-        several(d.slides, "slide"),
-        several(d.gears, if d.threaded { "nut" } else { "gear pair" }),
-        several(d.slots, "slot"),
-    ];
-    let place = match d.place {
-        "frame" => "at the frame",
-        _ => "between moving links",
-    };
-    let jaws = match d.jaws {
-        "driven" => "one of whose links is a jaw",
-        _ => "apart from the jaws",
-    };
-    let input = if d.input == "slide" { "slide" } else { "hinge" };
-    let mut out = format!(
-        "{name}: {} links, {}. The input is a {input} {place}, {jaws}.\n",
-        d.links,
-        pairs.into_iter().flatten().join(", ")
-    );
-    out += match d.sides {
-        1 => "It has three jaws.\n",
-        3 => "It has three equal sides: all this is of two of them.\n",
-        _ => "",
-    };
-    out += &format!("Structure: {}\n", d.name);
-    out += &motion(d);
-    for classic in &d.classics {
-        out += &format!("Known as {}: {}.\n", classic.id, classic.about);
-    }
-    if let Some(entries) = &d.catalogue {
-        if entries.is_empty() {
-            out += "The catalogue does not have it.\n";
-        }
-        for entry in entries {
-            out += &format!(
-                "In the catalogue: {}, laid out as {}.\n",
-                entry.id, entry.form
-            );
-        }
-    }
-    out += &neighbours_text(d.neighbours.as_deref().unwrap_or_default());
-    fit(&out, width)
-}
-
-/// How it moves in nearly all places.
-fn motion(d: &FoundData) -> String {
-    if !d.in_count {
-        return "In nearly all places of its joints it has no motion, more than one, or two links that keep together, or a gear pair \
-             without a carrier: such structures are not counted. It moves by its special shape, if it does.\n"
-            .to_owned();
-    }
-    let essential = match &d.essential_part {
-        Some(links) => format!(
-            "Not essential: {} alone move input and jaws alike",
-            links.join(", ")
-        ),
-        None => "Essential: no smaller moving part holds frame, input and jaws".to_owned(),
-    };
-    let flag = |strict: Option<bool>, but: Option<bool>, word: &str| match (strict, but) {
-        (Some(true), _) => Some(word.to_owned()),
-        (_, Some(true)) => Some(format!("{word} except for the input")),
-        _ => None,
-    };
-    let symmetric = [
-        flag(d.mirror, d.mirror_but_input, "mirror"),
-        flag(d.half_turn, d.half_turn_but_input, "half turn"),
-    ];
-    let symmetric = symmetric.into_iter().flatten().join(", ");
-    let symmetric = if symmetric.is_empty() {
-        "none"
-    } else {
-        &symmetric
-    };
-    let jaws = match d.translating {
-        Some(true) => "keep their attitude in nearly all places",
-        _ => "turn in nearly all places (on parallelograms they do not)",
-    };
-    format!("{essential}.\nSymmetric layouts: {symmetric}. The jaws {jaws}.\n")
 }
 
 /// The maximum number of neighbours in the text; JSON has all.
@@ -249,7 +244,8 @@ fn neighbours_text(all: &[Neighbour]) -> String {
         out += &format!("  {}, {}, {relation}: {better}\n", n.id, n.form);
     }
     if useful.len() > NAMED {
-        out += &format!("  and {} more, which --json has\n", useful.len() - NAMED);
+        let json = flag("json", "");
+        out += &format!("  and {} more, which {json} has\n", useful.len() - NAMED);
     }
     out
 }

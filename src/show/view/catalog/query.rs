@@ -1,10 +1,11 @@
 //! Answers to questions in SQL: as a table for people, whose heads have units, as JSON and as CSV.
 
+use crate::format::csv;
 use crate::format::plain::plain;
-use crate::format::{csv, grouped, significant};
-use crate::view::terminal::layout::table;
+use crate::view::prelude::*;
+use crate::view::terminal::layout::table_of;
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
-use serde_json::Value;
+use serde_json::Map;
 
 /// The answer to a question: as JSON a list of objects.
 #[derive(Debug, Clone)]
@@ -36,7 +37,7 @@ impl Serialize for QueryAnswer {
 }
 
 /// Returns a value without grouping or rounding.
-fn bare(value: &Value) -> String {
+pub(super) fn bare(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(s) => s.clone(),
@@ -85,17 +86,27 @@ fn head(name: &str) -> String {
 }
 
 impl QueryAnswer {
+    /// Returns rows of the same keys as an answer.
+    pub fn of(rows: &[Map<String, Value>]) -> QueryAnswer {
+        let names = rows
+            .first()
+            .map_or(Vec::new(), |row| row.keys().cloned().collect());
+        let rows = rows.iter().map(|row| row.values().cloned().collect());
+        QueryAnswer {
+            names,
+            rows: rows.collect(),
+        }
+    }
+
     /// Returns the answer as a table for people.
-    #[must_use]
     pub fn text(&self, width: Option<u16>) -> String {
         let heads: Vec<String> = self.names.iter().map(|n| head(n)).collect();
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
         let rows = self.rows.iter().map(|r| r.iter().map(cell).collect());
-        format!("{}\n", table(&heads, rows.collect(), width))
+        format!("{}\n", table_of(&heads, rows.collect(), width))
     }
 
     /// Returns the answer as CSV, with unrounded numbers.
-    #[must_use]
     pub fn csv(&self) -> String {
         let heads: Vec<&str> = self.names.iter().map(String::as_str).collect();
         csv::table(

@@ -2,35 +2,36 @@
 
 use crate::catalog::store::{Store, StoreError};
 use crate::format::plain::plain;
-use crate::format::{grouped, plural_of};
 use crate::terms::PairWords;
 use crate::view::catalog::query::{QueryAnswer, cell};
-use crate::view::terminal::layout::{fit, table};
-use itertools::Itertools;
-use serde_json::{Map, Value};
+use crate::view::prelude::*;
+use serde_json::Map;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::Path;
+
+/// A row of a table by its columns.
+type Row = Map<String, Value>;
 
 /// What a catalogue knows of a structure.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct StructureData {
     /// The row of `structures`, or of `drawn`.
-    pub structure: Map<String, Value>,
+    pub structure: Row,
     /// The row of `pairs`; `None` of one of hinges and a driver that slides in the frame.
-    pub pairs: Option<Map<String, Value>>,
+    pub pairs: Option<Row>,
     /// The rows of `classics`: well-known schemes of this structure.
-    pub classics: Vec<Map<String, Value>>,
+    pub classics: Vec<Row>,
     /// The row of `layouts`; `None` where it has no layout.
-    pub layout: Option<Map<String, Value>>,
+    pub layout: Option<Row>,
     /// The row of `strokes`; `None` where it has no layout.
-    pub stroke: Option<Map<String, Value>>,
+    pub stroke: Option<Row>,
     /// The row of `planes`; `None` where it has no layout, or one that nothing is said of.
-    pub planes: Option<Map<String, Value>>,
+    pub planes: Option<Row>,
     /// The rows of `counts`.
-    pub counts: Vec<Map<String, Value>>,
+    pub counts: Vec<Row>,
     /// The rows of `ideas`.
-    pub ideas: Vec<Map<String, Value>>,
+    pub ideas: Vec<Row>,
     /// The usual part that is such a joint, for each type that the ideas put in.
     pub hardware: BTreeMap<String, String>,
 }
@@ -54,7 +55,7 @@ impl StructureData {
     /// # Errors
     /// Where the database cannot be read.
     pub fn read(store: &Store, id: &str) -> Result<StructureData, StoreError> {
-        let maps = |sql: &str| -> Result<Vec<Map<String, Value>>, StoreError> {
+        let maps = |sql: &str| -> Result<Vec<Row>, StoreError> {
             let (names, rows) = store.query(sql, Some(id))?;
             let map = |row: Vec<Value>| names.iter().cloned().zip(row).collect();
             Ok(rows.into_iter().map(map).collect())
@@ -77,266 +78,242 @@ impl StructureData {
     }
 }
 
-/// A value of a row for people; empty where there is none.
-fn of<'a>(row: &'a Map<String, Value>) -> impl Fn(&str) -> String + 'a {
-    move |key| row.get(key).map_or_else(String::new, cell)
+/// Returns a value of a row for people; empty if there is none.
+fn value(row: &Row, key: &str) -> String {
+    row.get(key).map_or_else(String::new, cell)
 }
 
-/// The figures of a drawn mechanism.
-fn drawn_text(row: &Map<String, Value>) -> String {
-    let s = of(row);
-    format!(
-        "{}: {}, drawn ({})\n{}\n{}, {}, {}; driver: {}\nAs built: W = {}, σ = {}; finite mobility {}\n\
-         Determinate variants ({}): {}, of these {} that keep the output motion and have no more mobility than that\n\n",
-        s("id"),
-        s("name"),
-        s("mode"),
-        s("description"),
-        plural_of(&s("links"), "link"),
-        plural_of(&s("joints"), "joint"),
-        plural_of(&s("contours"), "contour"),
-        s("input"),
-        s("mobility"),
-        s("redundant"),
-        s("finite"),
-        s("certainty"),
-        s("determinate"),
-        s("admissible"),
-    )
+/// Returns a template with each `{key}` replaced by the value of a row.
+fn filled(template: &str, row: &Row) -> String {
+    let mut parts = template.split('{');
+    let first = parts.next().unwrap_or_default().to_owned();
+    let rest = parts.filter_map(|part| part.split_once('}'));
+    rest.fold(first, |out, (key, more)| out + &value(row, key) + more)
 }
 
-/// What a layout does of its task; nothing of one that was made for none.
-fn stroke_text(d: &StructureData) -> String {
-    let Some(stroke) = &d.stroke else {
-        return String::new();
-    };
-    let k = of(stroke);
-    let does = match stroke.get("shortfall").and_then(Value::as_str) {
-        None => "does all of it".to_owned(),
-        Some(why) => plain(why).into_owned(),
-    };
-    format!(
-        "Task: parts of {} to {} mm; {does}\n\
-         Over the stroke: forces 1 : {}, worst transmission angle {}°, at most {} N in a joint for 1 N of each jaw, efficiency from {}, \
-         a box of {} by {} mm; {} and {} mm more to the ends of the motion\n",
-        k("narrowest"),
-        k("widest"),
-        k("force_ratio"),
-        k("transmission"),
-        k("pin_force"),
-        k("efficiency"),
-        k("width"),
-        k("height"),
-        k("margin_closing"),
-        k("margin_opening"),
-    )
-}
-
-/// In which planes the links pass each other.
-fn planes_text(d: &StructureData) -> String {
-    let Some(planes) = &d.planes else {
-        return String::new();
-    };
-    let of = of(planes);
-    if planes.get("planes").is_some_and(Value::is_null) {
-        return "Over the stroke something meets in whatever planes the links lie\n".to_owned();
-    }
-    format!(
-        "Over the stroke nothing meets in {} planes, links from the back: {}\n",
-        of("planes"),
-        of("links"),
-    )
-}
-
-/// How many joints are no hinges, in brackets.
-fn pairs_text(d: &StructureData) -> String {
-    let Some(pairs) = &d.pairs else {
-        return String::new();
-    };
-    let p = of(pairs);
-    let kinds = ["slide", "gear", "slot"];
-    let some = kinds.iter().map(|k| (k, p(&format!("{k}s"))));
-    let some = some.filter(|(_, n)| n != "0");
-    let threaded = of(&d.structure)("name").ends_with(" threaded");
-    let word = |kind: &'static str| match kind {
-        "gear" if threaded => "nut",
-        _ => kind,
-    };
-    let words = some.map(|(kind, n)| plural_of(&n, word(kind))).join(", ");
-    format!(" ({words})")
-}
-
-/// Whether a row tells of a third jaw.
-fn third(row: &Map<String, Value>, key: &str) -> bool {
+/// Returns true if a row has a value.
+fn has(row: &Row, key: &str) -> bool {
     row.get(key).is_some_and(|v| !v.is_null())
 }
 
-/// The figures of a structure with a layout, or why it has none.
-fn structure_text(d: &StructureData) -> String {
-    let s = of(&d.structure);
-    let mut out = format!("{}: {}\n", s("id"), s("name"));
-    for classic in &d.classics {
-        let c = of(classic);
-        let known = if third(&d.structure, "jaw_c") {
+/// Returns a text of a row that says why something is not done, if there is one.
+fn reason<'a>(row: &'a Row, key: &str) -> Option<Cow<'a, str>> {
+    row.get(key).and_then(Value::as_str).map(plain)
+}
+
+const DRAWN: &str = "\
+{name}, drawn ({mode})
+{description}
+LINKS, JOINTS, CONTOURS; driver: {input}
+As built: W = {mobility}, σ = {redundant}; finite mobility {finite}
+Determinate variants ({certainty}): {determinate}, of these {admissible} that keep the output motion and have no more mobility than that
+
+";
+
+const STROKE: &str = "Over the stroke: forces 1 : {force_ratio}, worst transmission angle {transmission}°, \
+at most {pin_force} N in a joint for 1 N of each jaw, efficiency from {efficiency}, a box of {width} by {height} mm; \
+{margin_closing} and {margin_opening} mm more to the ends of the motion\n";
+
+impl StructureData {
+    /// Returns the verdict, a sentence: whether it is statically determinate as built, and whether it fulfils its task.
+    fn verdict(&self) -> String {
+        let id = value(&self.structure, "id");
+        let row = match &self.layout {
+            Some(layout) => layout,
+            None if self.is_drawn() => &self.structure,
+            None => return format!("{id}: no layout, {}\n", value(&self.structure, "no_layout")),
+        };
+        let sigma = match &*value(row, "redundant") {
+            "0" => "statically determinate".to_owned(),
+            n => plural_of(n, "redundant constraint"),
+        };
+        let task = match self.stroke.as_ref().map(|s| reason(s, "shortfall")) {
+            None => "",
+            Some(None) => "; it fulfils its task",
+            Some(Some(_)) => "; it does not fulfil its task",
+        };
+        format!(
+            "{id}: {sigma} as built, W = {}{task}\n",
+            value(row, "mobility")
+        )
+    }
+
+    /// Returns the figures of a drawn mechanism.
+    fn drawn_text(&self) -> String {
+        let nouns = [
+            ("LINKS", "link"),
+            ("JOINTS", "joint"),
+            ("CONTOURS", "contour"),
+        ];
+        let template = nouns.iter().fold(DRAWN.to_owned(), |text, (slot, noun)| {
+            let count = value(&self.structure, &format!("{noun}s"));
+            text.replace(slot, &plural_of(&count, noun))
+        });
+        filled(&template, &self.structure)
+    }
+
+    /// Returns the figures of a structure with a layout, or what it is made of.
+    fn structure_text(&self) -> String {
+        let known = if has(&self.structure, "jaw_c") {
             "With two jaws known"
         } else {
             "Known"
         };
-        let _ = writeln!(out, "{known} as {}: {}", c("id"), c("about"));
-    }
-    out += &make_up_text(d);
-    let Some(layout) = &d.layout else {
-        let _ = writeln!(out, "No layout: {}.", s("no_layout"));
-        return out;
-    };
-    out += &motion_text(d, layout);
-    out += &stroke_text(d);
-    out += &planes_text(d);
-    out += &shape_text(d, layout);
-    out
-}
-
-/// What a structure is made of, how it is driven and which links are its jaws.
-fn make_up_text(d: &StructureData) -> String {
-    let s = of(&d.structure);
-    let (jaws, both) = if third(&d.structure, "jaw_c") {
-        (
-            format!("{}, {} and {}", s("jaw_a"), s("jaw_b"), s("jaw_c")),
-            " round the part",
-        )
-    } else {
-        (format!("{} and {}", s("jaw_a"), s("jaw_b")), "")
-    };
-    format!(
-        "{}, {}{}; frame {}, driver {} ({}{}), jaws {jaws}{both}, {} of them at the frame; laid out {}{}\n",
-        plural_of(&s("links"), "link"),
-        plural_of(&s("joints"), "joint"),
-        pairs_text(d),
-        s("frame"),
-        s("driver"),
-        s("input"),
-        match &d.pairs {
-            Some(p) if of(p)("driven_from") != s("frame") =>
-                format!(" against {}", of(p)("driven_from")),
-            _ => String::new(),
-        },
-        s("jaws_at_frame"),
-        s("symmetry"),
-        if s("parallel") == "1" {
-            ", jaws on parallelograms"
-        } else {
-            ""
-        },
-    )
-}
-
-/// How a layout is constrained, how its jaws move and how hard they press.
-fn motion_text(d: &StructureData, layout: &Map<String, Value>) -> String {
-    let l = of(layout);
-    let slide = of(&d.structure)("input") == "slide";
-    let jaws = if third(layout, "jaw_c_motion") {
-        format!(
-            "{}, {} and {}",
-            l("jaw_a_motion"),
-            l("jaw_b_motion"),
-            l("jaw_c_motion")
-        )
-    } else {
-        format!("{} and {}", l("jaw_a_motion"), l("jaw_b_motion"))
-    };
-    format!(
-        "As built: W = {}, σ = {}; finite mobility {}\n\
-         Jaws: {jaws}, {} to {} mm apart for {} {} of the drive; they turn by {}° at most\n\
-         Force of each jaw for {} of the drive, without friction: {} N ({} to {} over the stroke)\n",
-        l("mobility"),
-        l("redundant"),
-        l("finite"),
-        l("opening_min"),
-        l("opening_max"),
-        l("travel"),
-        if slide { "mm" } else { "rad" },
-        l("jaw_turn"),
-        if slide { "1 N" } else { "1 Nm" },
-        l("force_mean"),
-        l("force_min"),
-        l("force_max"),
-    )
-}
-
-/// How a layout looks, and how many redesigns it has.
-fn shape_text(d: &StructureData, layout: &Map<String, Value>) -> String {
-    let l = of(layout);
-    format!(
-        "Drawn: links 1 : {}, {} crossings\n\
-         Determinate variants ({}): {}, of these {} with W = 1{}\n\n",
-        l("link_ratio"),
-        l("crossings"),
-        l("certainty"),
-        l("determinate"),
-        l("determinate_w1"),
-        match of(&d.structure)("symmetry").as_str() {
-            "generic" => String::new(),
-            symmetry => format!(", {} up to {symmetry} images", l("orbits_w1")),
-        },
-    )
-}
-
-/// What a catalogue knows of a structure, for people.
-#[must_use]
-pub fn show_text(d: &StructureData, file: &Path, width: Option<u16>) -> String {
-    let is_drawn = d.structure.contains_key("mechanism");
-    let head = if is_drawn {
-        drawn_text(&d.structure)
-    } else {
-        structure_text(d)
-    };
-    let head = fit(&head, width);
-    if !is_drawn && d.layout.is_none() {
-        return head;
-    }
-    let s = of(&d.structure);
-    let heads = ["", "cost", "variants", "force", "moment", "changes"];
-    let keys = [
-        "place",
-        "cost",
-        "variants",
-        "peak_force",
-        "peak_moment",
-        "changes",
-    ];
-    let row = |i: &Map<String, Value>| {
-        keys.iter()
-            .map(|k| i.get(*k).map_or_else(String::new, cell))
-            .collect()
-    };
-    let searched = d.layout.as_ref().unwrap_or(&d.structure);
-    let (found, least) = match searched.get("certainty").and_then(Value::as_str) {
-        Some("exact") => ("", ""),
-        _ => (" found", "at least "),
-    };
-    let ideas = match d.ideas.len() {
-        0 => String::new(),
-        n => {
-            let which = if n == 1 {
-                "The first idea".to_owned()
-            } else {
-                format!("The {n} first ideas, symmetric ones before others")
-            };
-            let line = format!(
-                "{which}{found}; each represents {least}the given number of variants, and the first of these is exported:\n"
-            );
-            let ideas = table(&heads, d.ideas.iter().map(row).collect(), width);
-            let mut parts = d.hardware.iter().map(|(to, part)| format!("{to}: {part}"));
-            let parts = format!("\nHardware: {}\n", parts.join("; "));
-            format!("{}\n{ideas}\n{}", fit(&line, width), fit(&parts, width))
+        let classic = |c| format!("{known} as {}", filled("{id}: {about}\n", c));
+        let classics = self.classics.iter().map(classic);
+        let mut out = filled("Structure: {name}\n", &self.structure)
+            + &classics.collect::<String>()
+            + &self.make_up_text();
+        let Some(layout) = &self.layout else {
+            return out;
+        };
+        out += &self.motion_text(layout);
+        if let Some(stroke) = &self.stroke {
+            let task = filled("Task: parts of {narrowest} to {widest} mm; ", stroke);
+            let does = reason(stroke, "shortfall").unwrap_or("does all of it".into());
+            out += &format!("{task}{does}\n{}", filled(STROKE, stroke));
         }
-    };
-    let next = format!(
-        "\nThe mechanism, and with idea 1 carried out:\n\n  ozols catalog export {0} {1} -o gripper.toml\n  ozols catalog export {0} {1} --idea 1 -o redesign.toml\n",
-        plain(&file.display().to_string()),
-        s("id"),
-    );
-    head + &ideas + &next
+        out += &match &self.planes {
+            None => String::new(),
+            Some(of) if !has(of, "planes") => {
+                "Over the stroke something meets in whatever planes the links lie\n".to_owned()
+            }
+            Some(of) => filled(
+                "Over the stroke nothing meets in {planes} planes, links from the back: {links}\n",
+                of,
+            ),
+        };
+        out + &self.shape_text(layout)
+    }
+
+    /// Returns the number of joints that are not hinges, in brackets.
+    fn pairs_text(&self) -> String {
+        let Some(pairs) = &self.pairs else {
+            return String::new();
+        };
+        let threaded = value(&self.structure, "name").ends_with(" threaded");
+        let kinds = ["slide", "gear", "slot"].into_iter();
+        let some = kinds.map(|k| (k, value(pairs, &format!("{k}s"))));
+        let words = some.filter(|(_, n)| n != "0").map(|(kind, n)| match kind {
+            "gear" if threaded => plural_of(&n, "nut"),
+            _ => plural_of(&n, kind),
+        });
+        format!(" ({})", words.format(", "))
+    }
+
+    /// Returns what a structure is made of, how it is driven and which links are its jaws.
+    fn make_up_text(&self) -> String {
+        let s = &self.structure;
+        let jaws = if has(s, "jaw_c") {
+            "{jaw_a}, {jaw_b} and {jaw_c} round the part"
+        } else {
+            "{jaw_a} and {jaw_b}"
+        };
+        let [links, joints] = ["link", "joint"].map(|n| plural_of(&value(s, &format!("{n}s")), n));
+        let against = match &self.pairs {
+            Some(p) if value(p, "driven_from") != value(s, "frame") => {
+                filled(" against {driven_from}", p)
+            }
+            _ => String::new(),
+        };
+        let parallel = match &*value(s, "parallel") {
+            "1" => ", jaws on parallelograms",
+            _ => "",
+        };
+        let template = format!(
+            "{links}, {joints}{}; frame {{frame}}, driver {{driver}} ({{input}}{against}), jaws {jaws}, \
+             {{jaws_at_frame}} of them at the frame; laid out {{symmetry}}{parallel}\n",
+            self.pairs_text()
+        );
+        filled(&template, s)
+    }
+
+    /// Returns how a layout is constrained, how its jaws move and how hard they press.
+    fn motion_text(&self, layout: &Row) -> String {
+        let slide = value(&self.structure, "input") == "slide";
+        let (travel, effort) = if slide {
+            ("mm", "1 N")
+        } else {
+            ("rad", "1 Nm")
+        };
+        let jaws = if has(layout, "jaw_c_motion") {
+            "{jaw_a_motion}, {jaw_b_motion} and {jaw_c_motion}"
+        } else {
+            "{jaw_a_motion} and {jaw_b_motion}"
+        };
+        let template = format!(
+            "As built: W = {{mobility}}, σ = {{redundant}}; finite mobility {{finite}}\n\
+             Jaws: {jaws}, {{opening_min}} to {{opening_max}} mm apart for {{travel}} {travel} of the drive; they turn by {{jaw_turn}}° at most\n\
+             Force of each jaw for {effort} of the drive, without friction: {{force_mean}} N ({{force_min}} to {{force_max}} over the stroke)\n"
+        );
+        filled(&template, layout)
+    }
+
+    /// Returns how a layout looks, and how many redesigns it has.
+    fn shape_text(&self, layout: &Row) -> String {
+        let images = match value(&self.structure, "symmetry").as_str() {
+            "generic" => String::new(),
+            symmetry => format!(", {{orbits_w1}} up to {symmetry} images"),
+        };
+        let template = format!(
+            "Drawn: links 1 : {{link_ratio}}, worst transmission angle {{transmission}}°, {{crossings}} crossings\n\
+             Determinate variants ({{certainty}}): {{determinate}}, of these {{determinate_w1}} with W = 1{images}\n\n"
+        );
+        filled(&template, layout)
+    }
+
+    /// Returns the ideas as a table, with their hardware.
+    fn ideas_text(&self, width: Option<u16>) -> String {
+        let searched = self.layout.as_ref().unwrap_or(&self.structure);
+        let (found, least) = match searched.get("certainty").and_then(Value::as_str) {
+            Some("exact") => ("", ""),
+            _ => (" found", "at least "),
+        };
+        let which = match self.ideas.len() {
+            0 => return String::new(),
+            1 => "The first idea".to_owned(),
+            n => format!("The {n} first ideas, symmetric ones before others"),
+        };
+        let line = format!(
+            "{which}{found}; each represents {least}the given number of variants, and the first of these is exported:\n"
+        );
+        let keys = "place | cost | variants | peak_force | peak_moment | changes";
+        let row = |i: &Row| keys.split(" | ").map(|k| value(i, k)).collect();
+        let heads = " | cost | variants | force | moment | changes";
+        let ideas = table(heads, self.ideas.iter().map(row), width);
+        let mut parts = self
+            .hardware
+            .iter()
+            .map(|(to, part)| format!("{to}: {part}"));
+        let parts = format!("\nHardware: {}\n", parts.join("; "));
+        format!("{}\n{ideas}\n{}", fit(&line, width), fit(&parts, width))
+    }
+
+    /// Returns true if there is a mechanism of it.
+    pub fn has_layout(&self) -> bool {
+        self.layout.is_some() || self.is_drawn()
+    }
+
+    /// Returns true if it is a drawn mechanism and no structure that was laid out.
+    fn is_drawn(&self) -> bool {
+        self.structure.contains_key("mechanism")
+    }
+
+    /// Returns all of it for people, the verdict first.
+    pub fn text(&self, width: Option<u16>) -> String {
+        let is_drawn = self.is_drawn();
+        let figures = if is_drawn {
+            self.drawn_text()
+        } else {
+            self.structure_text()
+        };
+        let head = fit(&(self.verdict() + &figures), width);
+        if self.has_layout() {
+            head + &self.ideas_text(width)
+        } else {
+            head
+        }
+    }
 }
 
 /// What a catalogue holds, for whoever has just built it.

@@ -10,7 +10,6 @@ const PER_SWING: u32 = 48;
 
 /// The payload's acceleration on the first disc over the programme, as `ozols grip --motion` takes it: a gripper that reaches
 /// outwards from the axis (its x), the part along the axis (its z).
-#[must_use]
 pub fn motion(d: &Drive<'_>) -> Option<String> {
     let (found, payload) = (d.design?, d.file.spec.payload?);
     let rows = found
@@ -28,7 +27,6 @@ pub fn motion(d: &Drive<'_>) -> Option<String> {
 }
 
 /// Both charts with the names of their files; none without a bar.
-#[must_use]
 pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let Some(found) = d.design else {
         return Vec::new();

@@ -2,34 +2,32 @@
 
 use crate::drive::cam::CamDesign;
 use crate::drive::driving::{DampingFrom, Design};
-use crate::drive::programme::{Endurance, Event, PATIENCE};
-use crate::drive::swing::End;
-use crate::drive::torsion::{Remedy, decrement, stored_energy};
-use crate::format::{plural, significant};
+use crate::drive::programme::{Endurance, Event, PATIENCE, Ran};
+use crate::drive::swing::{End, Swing};
+use crate::drive::torsion::{BarTrial, Remedy, decrement, stored_energy};
 use crate::model::claim::Topic;
 use crate::view::claims::{self, about};
 use crate::view::drive::Drive;
-use crate::view::span;
-use crate::view::terminal::layout::{fit, table};
-use std::fmt::Write;
+use crate::view::prelude::*;
 
 /// Rows of the programme shown before the rest is left out.
 const SHOWN: usize = 24;
 
-/// The report, fitted to a terminal of `width` columns where one is given.
-#[must_use]
+/// Returns the report, fitted to a terminal of `width` columns if one is given.
 pub fn drive(d: &Drive<'_>, width: Option<u16>) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = match d.design {
-        Some(design) => designed(&mut out, d, design, width),
-        None => refused(&mut out, d, width),
-    };
-    out += &claims::text(&about(&d.file.claims, Topic::Drive), width);
-    fit(&out, width)
+    let mut out = Report::new(width);
+    match d.design {
+        Some(design) => write_design(&mut out, d, design),
+        None => write_refusal(&mut out, d),
+    }
+    out.text()
+        + &fit(
+            &claims::text(&about(&d.file.claims, Topic::Drive), width),
+            width,
+        )
 }
 
-/// A length in the file's unit, with its symbol.
+/// Returns a length in the file's unit, with its symbol.
 fn length(d: &Drive<'_>, x: f64) -> String {
     d.file.length_unit.words(x)
 }
@@ -38,34 +36,21 @@ fn degrees(x: f64) -> String {
     format!("{}°", significant(x.to_degrees()))
 }
 
-fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Result {
-    let spec = &d.file.spec;
-    writeln!(
-        out,
-        "{}: no torsion bar swings {} in {} s\n",
-        d.file.name,
-        degrees(2.0 * d.file.spec.twist),
-        significant(d.file.spec.period / 2.0)
-    )?;
+fn write_refusal(out: &mut Report, d: &Drive<'_>) {
+    let (name, spec) = (&d.file.name, &d.file.spec);
+    let (swing, time) = (degrees(2.0 * spec.twist), significant(spec.period / 2.0));
+    out.line(format!(
+        "{name}: no torsion bar swings {swing} in {time} s\n"
+    ));
     if let Some(t) = d.sizing.trials.last() {
-        if t.strong {
-            writeln!(
-                out,
-                "  no room: the bar that satisfies (11), d = {}, must be l = {} long; there are {}",
-                length(d, t.bar.diameter),
-                length(d, t.bar.length),
-                spec.max_length.map_or_else(String::new, |l| length(d, l))
-            )?
+        let (bar, long) = (length(d, t.bar.diameter), length(d, t.bar.length));
+        out.line(if t.strong {
+            let room = spec.max_length.map_or_else(String::new, |l| length(d, l));
+            format!("  no room: the bar that satisfies (11), d = {bar}, must be l = {long} long; there are {room}")
         } else {
-            writeln!(
-                out,
-                "  (11) fails: the last bar tried, d = {} and l = {}, may be twisted by [φ] = {}, not more than φ0 = {}",
-                length(d, t.bar.diameter),
-                length(d, t.bar.length),
-                degrees(t.allowable_twist),
-                degrees(d.file.spec.twist)
-            )?
-        }
+            let (may, must) = (degrees(t.allowable_twist), degrees(spec.twist));
+            format!("  (11) fails: the last bar tried, d = {bar} and l = {long}, may be twisted by [φ] = {may}, not more than φ0 = {must}")
+        });
     }
     if let Some(Remedy {
         length: l,
@@ -75,67 +60,51 @@ fn refused(out: &mut String, d: &Drive<'_>, width: Option<u16>) -> std::fmt::Res
         inertia,
     }) = d.sizing.remedy
     {
-        let lines = [
-            "  Any one of these is enough (with a bar of any diameter):".to_owned(),
-            format!("    a bar longer than {}", length(d, l)),
-            format!(
-                "    a material of [τ_s] above {} MPa",
-                significant(allowable_stress * 1e-6)
-            ),
-            format!("    a period above {} s", significant(period)),
-            format!("    a swing 2φ0 below {}", degrees(2.0 * twist)),
-            format!("    an inertia below {} kg·m²", significant(inertia)),
-        ];
-        writeln!(out, "{}", lines.join("\n"))?;
+        out.line("  Any one of these is enough (with a bar of any diameter):");
+        out.line(format!("    a bar longer than {}", length(d, l)));
+        let stress = significant(allowable_stress * 1e-6);
+        out.line(format!("    a material of [τ_s] above {stress} MPa"));
+        out.line(format!("    a period above {} s", significant(period)));
+        out.line(format!("    a swing 2φ0 below {}", degrees(2.0 * twist)));
+        out.line(format!(
+            "    an inertia below {} kg·m²",
+            significant(inertia)
+        ));
     }
-    writeln!(out, "\n{}", trials(d, width))
+    out.line("");
+    write_trials(out, d);
 }
 
-fn trials(d: &Drive<'_>, width: Option<u16>) -> String {
+fn write_trials(out: &mut Report, d: &Drive<'_>) {
     let (metres, symbol) = (d.file.length_unit.metres, d.file.length_unit.symbol);
-    let rows = d.sizing.trials.iter().map(|t| {
+    let row = |t: &BarTrial| {
         let verdict = match (t.strong, t.fits) {
             (true, true) => "holds",
             (false, _) => "(11) fails",
             (true, false) => "too long",
         };
-        let mut row = [
-            t.bar.length / metres,
-            t.bar.diameter / metres,
-            t.allowable_twist.to_degrees(),
-            d.file.spec.twist.to_degrees(),
-        ]
-        .map(significant)
-        .to_vec();
-        row.push(verdict.to_owned());
-        row
-    });
-    let (l, bar) = (format!("l, {symbol}"), format!("d, {symbol}"));
-    table(&[&l, &bar, "[φ], °", "φ0, °", ""], rows.collect(), width)
+        let angles = [t.allowable_twist, d.file.spec.twist].map(f64::to_degrees);
+        let lengths = [t.bar.length, t.bar.diameter].map(|x| x / metres);
+        let numbers = lengths.into_iter().chain(angles).map(significant);
+        numbers.chain([verdict.to_owned()]).collect()
+    };
+    let heads = format!("l, {symbol} | d, {symbol} | [φ], ° | φ0, ° | ");
+    out.table(&heads, d.sizing.trials.iter().map(row));
 }
 
-fn designed(
-    out: &mut String,
-    d: &Drive<'_>,
-    design: &Design,
-    width: Option<u16>,
-) -> std::fmt::Result {
-    let spec = &d.file.spec;
+fn write_design(out: &mut Report, d: &Drive<'_>, design: &Design) {
+    let (name, spec) = (&d.file.name, &d.file.spec);
     let wanted = plural(design.run.wanted, "swing");
     let verdict = if d.complete() {
         format!("all {wanted} latched")
     } else {
         format!("fails after {} of {wanted}", design.run.latched)
     };
-    writeln!(
-        out,
-        "{}: torsion bar d = {}, l = {}; swings {} in {} s, {verdict}\n",
-        d.file.name,
-        length(d, design.bar.diameter),
-        length(d, design.bar.length),
-        degrees(2.0 * d.file.spec.twist),
-        significant(d.file.spec.period / 2.0)
-    )?;
+    let (bar, long) = (length(d, design.bar.diameter), length(d, design.bar.length));
+    let (swing, time) = (degrees(2.0 * spec.twist), significant(spec.period / 2.0));
+    out.line(format!(
+        "{name}: torsion bar d = {bar}, l = {long}; swings {swing} in {time} s, {verdict}\n"
+    ));
     if let Some((disc, swing)) = design.run.swings().last().filter(|_| !d.complete()) {
         let why = match swing.end {
             End::Stuck => "is stuck: friction is stronger than the wound bar".to_owned(),
@@ -146,216 +115,173 @@ fn designed(
             ),
             End::Latched { .. } | End::Caught { .. } => String::new(),
         };
-        writeln!(out, "  disc {} {why}\n", disc + 1)?;
+        out.line(format!("  disc {} {why}\n", disc + 1));
     }
-    let second = if d.file.spec.inertias[1] == d.file.spec.inertias[0] {
+    let [first, second] = spec.inertias;
+    let and = if second == first {
         String::new()
     } else {
-        format!(" and {} kg·m²", significant(d.file.spec.inertias[1]))
+        format!(" and {} kg·m²", significant(second))
     };
-    writeln!(
-        out,
-        "  I = {} kg·m²{second}, k = {} N·m/rad, wound by {} at {} MPa of {}: {} J",
-        significant(d.file.spec.inertias[0]),
+    let (inertia, stiffness, twist) = (
+        significant(first),
         significant(design.stiffness),
-        degrees(d.file.spec.twist),
-        significant(design.bar.stress(spec.twist) * 1e-6),
-        significant(spec.allowable_stress * 1e-6),
-        significant(stored_energy(design.stiffness, d.file.spec.twist))
-    )?;
-    losses(out, d, design)?;
-    motions(out, d, design)?;
-    writeln!(out, "\n  Sizing, (10) and (11):\n\n{}", trials(d, width))?;
-    writeln!(out, "\n  Programme:\n\n{}", programme(d, width))
+        degrees(spec.twist),
+    );
+    let [stress, allowed] =
+        [design.bar.stress(spec.twist), spec.allowable_stress].map(|x| significant(x * 1e-6));
+    let energy = significant(stored_energy(design.stiffness, spec.twist));
+    out.line(format!(
+        "  I = {inertia} kg·m²{and}, k = {stiffness} N·m/rad, wound by {twist} at {stress} MPa of {allowed}: {energy} J"
+    ));
+    write_losses(out, d, design);
+    write_motions(out, d, design);
+    out.line("\n  Sizing, (10) and (11):\n");
+    write_trials(out, d);
+    out.line("\n  Programme:\n");
+    write_programme(out, d);
 }
 
-fn losses(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
+fn write_losses(out: &mut Report, d: &Drive<'_>, design: &Design) {
     let from = match design.damping_from {
         DampingFrom::Stated => "as stated",
         DampingFrom::MissingAngle => "viscous, from the missing angle",
         DampingFrom::None => "none stated",
     };
-    writeln!(
-        out,
-        "  damping ({from}): {} N·m·s/rad and {} N·m",
-        significant(design.damping.viscous),
-        significant(design.damping.coulomb)
-    )?;
+    let [viscous, coulomb] = [design.damping.viscous, design.damping.coulomb].map(significant);
+    out.line(format!(
+        "  damping ({from}): {viscous} N·m·s/rad and {coulomb} N·m"
+    ));
     if design.missing > 0.0 {
-        writeln!(
-            out,
-            "  without the cam a swing ends Δφ = {} short: δ = {} a swing (6), E_fr = {} J (12)",
-            degrees(design.missing),
-            significant(decrement(
-                d.file.spec.twist,
-                d.file.spec.twist - design.missing
-            )),
-            significant(design.friction_energy)
-        )?;
+        let twist = d.file.spec.twist;
+        let delta = significant(decrement(twist, twist - design.missing));
+        let (missing, energy) = (degrees(design.missing), significant(design.friction_energy));
+        out.line(format!(
+            "  without the cam a swing ends Δφ = {missing} short: δ = {delta} a swing (6), E_fr = {energy} J (12)"
+        ));
     }
-    needed_feed(out, design)?;
+    out.line(needed_feed(design));
     if d.complete() {
-        endurance(out, &design.endurance)?;
+        out.line(endurance(&design.endurance));
     }
     if let Some(cam) = &design.cam {
         let exact = cam.needed.as_ref().map_or_else(String::new, |s| {
             format!("; {} N/m by the simulation", significant(s.rate))
         });
-        writeln!(
-            out,
-            "  cam spring: c = {} N/m (14), which gives {} J (13){exact}",
-            significant(cam.spring.rate),
-            significant(cam.spring.energy())
-        )?;
-        electromagnet(out, d, cam)?;
-    }
-    Ok(())
-}
-
-/// The work that the cam must give for the disc to arrive.
-fn needed_feed(out: &mut String, design: &Design) -> std::fmt::Result {
-    match design.needed_feed {
-        Some(needed) if design.friction_energy > 0.0 => writeln!(
-            out,
-            "  to arrive at rest the cam must give {} J, {:+.2} % on (12), since the fed swing is longer and faster; {} J in this run",
-            significant(needed),
-            (needed / design.friction_energy - 1.0) * 100.0,
-            significant(design.feed)
-        ),
-        Some(needed) => writeln!(
-            out,
-            "  to arrive at rest the cam must give {} J",
-            significant(needed)
-        ),
-        None => writeln!(
-            out,
-            "  no work of the cam brings the disc to its latch: it stops before the push begins"
-        ),
+        let [rate, energy] = [cam.spring.rate, cam.spring.energy()].map(significant);
+        out.line(format!(
+            "  cam spring: c = {rate} N/m (14), which gives {energy} J (13){exact}"
+        ));
+        write_electromagnet(out, d, cam);
     }
 }
 
-/// Whether the programme could go on for ever.
-fn endurance(out: &mut String, endurance: &Endurance) -> std::fmt::Result {
+/// Returns the work that the cam must give for the disc to arrive.
+fn needed_feed(design: &Design) -> String {
+    let Some(needed) = design.needed_feed else {
+        return "  no work of the cam brings the disc to its latch: it stops before the push begins".to_owned();
+    };
+    let must = format!(
+        "  to arrive at rest the cam must give {} J",
+        significant(needed)
+    );
+    if design.friction_energy > 0.0 {
+        let more = (needed / design.friction_energy - 1.0) * 100.0;
+        let feed = significant(design.feed);
+        format!(
+            "{must}, {more:+.2} % on (12), since the fed swing is longer and faster; {feed} J in this run"
+        )
+    } else {
+        must
+    }
+}
+
+/// Says whether the programme can be repeated for ever.
+fn endurance(endurance: &Endurance) -> String {
     match *endurance {
-        Endurance::Lasts { missing } => writeln!(
-            out,
+        Endurance::Lasts { missing } => format!(
             "  repeated unchanged, the programme latches every swing in the long run, at most {} short",
             degrees(missing)
         ),
-        Endurance::Drifts { missing } => writeln!(
-            out,
+        Endurance::Drifts { missing } => format!(
             "  repeated unchanged, the programme still drifts after {PATIENCE} swings, {} short by then",
             degrees(missing)
         ),
-        Endurance::Fails { after } => writeln!(
-            out,
+        Endurance::Fails { after } => format!(
             "  BUT NOT FOR LONG: of the programme repeated unchanged, {after} swings are latched and the next one misses; the cam must give more"
         ),
     }
 }
 
-/// Writes when the electromagnets are on, and what that takes.
-fn electromagnet(out: &mut String, d: &Drive<'_>, cam: &CamDesign) -> std::fmt::Result {
+/// Says when the electromagnets are on, and what that takes.
+fn write_electromagnet(out: &mut Report, d: &Drive<'_>, cam: &CamDesign) {
     let m = &cam.magnet;
     let times = m.pulses.iter().map(|p| p.off - p.on);
     let least = times.clone().fold(f64::INFINITY, f64::min);
     let most = times.fold(0.0, f64::max);
     let on = span(significant(least), significant(most));
-    writeln!(
-        out,
-        "  electromagnet: on at each release for {on} s, up to where the push begins; lifts the follower by {} against {} to {} N: {} J a swing, {} J a cycle, {} W on average; spring c = {} N/m for this run",
-        length(d, cam.fitted.stroke),
-        significant(m.first_force),
-        significant(m.last_force),
-        significant(m.energy_per_swing),
-        significant(m.energy_per_cycle),
-        significant(m.mean_power),
-        significant(cam.fitted.rate)
-    )
+    let [first, last] = [m.first_force, m.last_force].map(significant);
+    let [swing, cycle, power] =
+        [m.energy_per_swing, m.energy_per_cycle, m.mean_power].map(significant);
+    let (stroke, rate) = (length(d, cam.fitted.stroke), significant(cam.fitted.rate));
+    out.line(format!(
+        "  electromagnet: on at each release for {on} s, up to where the push begins; lifts the follower by {stroke} against {first} to {last} N: {swing} J a swing, {cycle} J a cycle, {power} W on average; spring c = {rate} N/m for this run"
+    ));
 }
 
-fn motions(out: &mut String, d: &Drive<'_>, design: &Design) -> std::fmt::Result {
-    let same = d.file.spec.inertias[0] == d.file.spec.inertias[1];
-    for (i, m) in design
-        .motions
-        .iter()
-        .enumerate()
-        .take(if same { 1 } else { 2 })
-    {
+fn write_motions(out: &mut Report, d: &Drive<'_>, design: &Design) {
+    let spec = &d.file.spec;
+    let same = spec.inertias[0] == spec.inertias[1];
+    let discs = if same { 1 } else { 2 };
+    for (i, m) in design.motions.iter().enumerate().take(discs) {
         let who = if same {
             "either disc".to_owned()
         } else {
             format!("disc {}", i + 1)
         };
-        writeln!(
-            out,
-            "  greatest motion of {who}: {} rad/s² at the ends, {} rad/s in the middle",
-            significant(m.angular_acceleration),
-            significant(m.angular_speed)
-        )?;
-        if let (Some(a), Some(p)) = (m.acceleration, d.file.spec.payload) {
+        let [acceleration, speed] = [m.angular_acceleration, m.angular_speed].map(significant);
+        out.line(format!(
+            "  greatest motion of {who}: {acceleration} rad/s² at the ends, {speed} rad/s in the middle"
+        ));
+        if let (Some(a), Some(p)) = (m.acceleration, spec.payload) {
             let (radius, shown) = (length(d, p.radius), significant(a));
-            writeln!(
-                out,
-                "    at {radius} from the axis {shown} m/s²; a grip there must hold: ozols grip FILE --any-acceleration {a:.3}"
-            )?;
+            out.line(format!(
+                "    at {radius} from the axis {shown} m/s²; a grip there must hold: ozols grip FILE {}",
+                flag("any-acceleration", format_args!("{a:.3}"))
+            ));
         }
     }
-    Ok(())
 }
 
-fn programme(d: &Drive<'_>, width: Option<u16>) -> String {
-    let mut rows = Vec::new();
-    for s in d.design.iter().flat_map(|f| &f.run.steps) {
-        let mut row = vec![significant(s.start), significant(s.duration)];
-        match &s.event {
-            Event::Dwell => row.extend(["dwell", "", "", "", ""].map(str::to_owned)),
-            Event::Swing { disc, swing } => {
-                let ahead = (s.angles[*disc] - s.angles[1 - disc]).signum();
-                let to = s.angles[1 - disc] - ahead * swing.place;
-                let end = match swing.end {
-                    End::Latched { impact } => {
-                        format!("latched, {} J left over", significant(impact))
-                    }
-                    End::Caught { missing } => format!("caught {} short", degrees(missing)),
-                    End::Missed { missing } => format!("missed by {}", degrees(missing)),
-                    End::Stuck => "stuck".to_owned(),
-                };
-                let b = &swing.balance;
-                row.extend([
-                    format!(
-                        "disc {}: {} to {}",
-                        disc + 1,
-                        degrees(s.angles[*disc]),
-                        degrees(to)
-                    ),
-                    significant(b.fed),
-                    significant(b.coulomb + b.viscous),
-                    significant(b.stored),
-                    end,
-                ]);
-            }
+fn write_programme(out: &mut Report, d: &Drive<'_>) {
+    let steps = d.design.map_or(&[][..], |f| &f.run.steps);
+    let rows = steps.iter().take(SHOWN).map(|s| match &s.event {
+        Event::Dwell => {
+            let [start, time] = [s.start, s.duration].map(significant);
+            cells([&start, &time, &"dwell", &"", &"", &"", &""])
         }
-        rows.push(row);
+        Event::Swing { disc, swing } => swing_row(s, *disc, swing),
+    });
+    let heads = "start, s | time, s | step | fed, J | lost, J | stored, J | end";
+    out.table(heads, rows);
+    if let more @ 1.. = steps.len().saturating_sub(SHOWN) {
+        let (more, json) = (plural(more, "step"), flag("format", "json"));
+        out.line(format!("  and {more} more; {json} has them all"));
     }
-    let all = rows.len();
-    rows.truncate(SHOWN);
-    let head = [
-        "start, s",
-        "time, s",
-        "step",
-        "fed, J",
-        "lost, J",
-        "stored, J",
-        "end",
-    ];
-    let mut text = table(&head, rows, width);
-    if all > SHOWN {
-        let _ = write!(
-            text,
-            "\n  and {} more; --format json has them all",
-            plural(all - SHOWN, "step")
-        );
-    }
-    text
+}
+
+fn swing_row(s: &Ran, disc: usize, swing: &Swing) -> Vec<String> {
+    let [own, other] = [s.angles[disc], s.angles[1 - disc]];
+    let to = other - (own - other).signum() * swing.place;
+    let end = match swing.end {
+        End::Latched { impact } => format!("latched, {} J left over", significant(impact)),
+        End::Caught { missing } => format!("caught {} short", degrees(missing)),
+        End::Missed { missing } => format!("missed by {}", degrees(missing)),
+        End::Stuck => "stuck".to_owned(),
+    };
+    let b = &swing.balance;
+    let [start, time] = [s.start, s.duration].map(significant);
+    let [fed, lost, stored] = [b.fed, b.coulomb + b.viscous, b.stored].map(significant);
+    let step = format!("disc {}: {} to {}", disc + 1, degrees(own), degrees(to));
+    cells([&start, &time, &step, &fed, &lost, &stored, &end])
 }

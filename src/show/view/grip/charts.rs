@@ -8,7 +8,6 @@ use crate::grip::lever_arm::Arms;
 use crate::view::grip::GripReport;
 
 /// Every chart with the name of its file.
-#[must_use]
 pub fn charts(g: &GripReport<'_>) -> Vec<(String, Chart)> {
     let (metres, symbol) = (g.file.length_unit.metres, g.file.length_unit.symbol);
     let series = |name: &str, style, y: &dyn Fn(&DiameterRow) -> Option<f64>| Series {

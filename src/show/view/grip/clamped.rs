@@ -1,20 +1,14 @@
 //! What a grip loads its mechanism with: one value from which text and JSON are made. Forces in N on the part, in the
 //! grip's own axes.
 
-use crate::format::significant;
 use crate::grip::clamped;
 use crate::grip::clamping::{DiameterRow, Hardest};
 use crate::grip::holding::ContactForce;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::grip::GripLoad;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::view::grip::reasons;
 use crate::view::grip::text::effort_of_drive;
-use crate::view::joined;
-use crate::view::terminal::layout::table;
-use serde::{Serialize, Serializer};
-use serde_json::{Value, json};
-use std::fmt::Write;
+use crate::view::prelude::*;
 
 /// The loads from a grip round one part.
 #[derive(Debug)]
@@ -49,13 +43,11 @@ fn diameter(g: &Gripping, row: &DiameterRow) -> String {
 }
 
 /// The pose in a few words.
-#[must_use]
 pub(crate) fn pose(g: &Gripping, row: &DiameterRow) -> String {
     format!("round a part of {}", diameter(g, row))
 }
 
 /// Every reason why a part is not held, one a line.
-#[must_use]
 pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
     let all = reasons(row, load(g).map_or(0.0, |l| l.friction));
     let lines = all.map(|why| format!("  {} cannot be held: {why}\n", diameter(g, row)));
@@ -64,7 +56,6 @@ pub(crate) fn not_held(g: &Gripping, row: &DiameterRow) -> String {
 
 impl<'a> NotHeld<'a> {
     /// A part of a state that is not held, for one reason.
-    #[must_use]
     pub fn because(m: &'a Mechanism, state: StateId, why: &str) -> Self {
         NotHeld {
             mechanism: &m.name,
@@ -75,7 +66,6 @@ impl<'a> NotHeld<'a> {
     }
 
     /// Why no diameter of a grip, or not the one asked for, is held.
-    #[must_use]
     pub fn new(g: &'a Gripping) -> Self {
         let lost = g.study.rows.iter().filter(|r| !r.holds());
         NotHeld {
@@ -87,7 +77,6 @@ impl<'a> NotHeld<'a> {
     }
 
     /// The same for people.
-    #[must_use]
     pub fn text(&self) -> String {
         let mut out = format!(
             "{}, state {}: the part cannot be held, so no contact forces load the jaws\n",
@@ -97,12 +86,6 @@ impl<'a> NotHeld<'a> {
             out += &format!("  {reason}\n");
         }
         out
-    }
-}
-
-impl Serialize for Clamped<'_> {
-    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
-        self.data().serialize(s)
     }
 }
 
@@ -119,7 +102,7 @@ impl Clamped<'_> {
     }
 
     /// Returns the loads as data.
-    fn data(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         let hardest = self.row.hardest.as_ref();
         let held = hardest.and_then(Hardest::held);
         let contact = |(contact, jaw, force): (&str, &str, &ContactForce)| {
@@ -145,69 +128,56 @@ impl Clamped<'_> {
         load(self.grip).map_or(1.0, |l| l.safety)
     }
 
-    /// The same for people, fitted to a terminal of `width` columns where one is given; `flat` where forces across the plane
-    /// of motion are left out below.
-    #[must_use]
+    /// Returns the same for people, fitted to a terminal of `width` columns if one is given; `flat` is true if forces across the
+    /// plane of motion are left out below.
     pub fn text(&self, flat: bool, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write(&mut out, flat, width);
-        for other in self.grip.study.rows.iter().filter(|r| !r.holds()) {
-            out.push_str(&not_held(self.grip, other));
+        let (g, mut out) = (self.grip, Report::new(width));
+        if let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) {
+            self.write(&mut out, moment, &contacts.collect_vec(), flat);
         }
-        out
+        let others = g.study.rows.iter().filter(|r| !r.holds());
+        out.text() + &others.map(|other| not_held(g, other)).collect::<String>()
     }
 
-    fn write(&self, out: &mut String, flat: bool, width: Option<u16>) -> std::fmt::Result {
-        let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) else {
-            return Ok(());
-        };
-        let contacts: Vec<_> = contacts.collect();
+    fn write(
+        &self,
+        out: &mut Report,
+        moment: f64,
+        contacts: &[(&str, &str, &ContactForce)],
+        flat: bool,
+    ) {
         let (g, m) = (self.grip, &self.grip.mechanism);
         let choice = match g.study.hardest() {
             Some(hardest) if hardest.diameter == self.row.diameter => "the worst case",
             _ => "the worst case of this diameter",
         };
-        writeln!(
-            out,
-            "{}, state {}: the part is cut free, and the jaws bear the contact forces of {choice} (`ozols grip`):",
-            m.name, m.states[g.state]
-        )?;
-        writeln!(
-            out,
-            "{}, {}, safety factor {}",
-            diameter(g, self.row),
-            self.row.hardest.as_ref().map_or("", |h| &h.case),
-            significant(self.safety())
-        )?;
-        write!(out, "The grip asks {} N·m per lever", significant(moment))?;
-        if let Some((effort, slides)) = self.found.effort {
-            write!(out, ", {}", effort_of_drive(effort, slides))?;
-        }
-        writeln!(
-            out,
-            "; its drive below bears that and the loads of the links\n"
-        )?;
-        let rows = contacts.iter().map(|(contact, jaw, force)| {
-            let mut row = vec![contact.to_string(), jaw.to_string()];
-            row.extend([force.normal, force.along, force.axial].map(significant));
-            row
+        let (name, state) = (&m.name, &m.states[g.state]);
+        out.line(format!(
+            "{name}, state {state}: the part is cut free, and the jaws bear the contact forces of {choice} (`ozols grip`):"
+        ));
+        let case = self.row.hardest.as_ref().map_or("", |h| &h.case);
+        let (diameter, safety) = (diameter(g, self.row), significant(self.safety()));
+        out.line(format!("{diameter}, {case}, safety factor {safety}"));
+        let effort = self.found.effort;
+        let effort = effort.map(|(x, slides)| format!(", {}", effort_of_drive(x, slides)));
+        out.line(format!(
+            "The grip asks {} N·m per lever{}; its drive below bears that and the loads of the links\n",
+            significant(moment),
+            effort.unwrap_or_default()
+        ));
+        let rows = contacts.iter().map(|(contact, jaw, f)| {
+            let [normal, along, axial] = [f.normal, f.along, f.axial].map(significant);
+            cells([contact, jaw, &normal, &along, &axial])
         });
-        let head = [
-            "contact",
-            "jaw",
-            "normal, N",
-            "along the face, N",
-            "along the part, N",
-        ];
-        writeln!(out, "{}\n", table(&head, rows.collect(), width))?;
+        let heads = "contact | jaw | normal, N | along the face, N | along the part, N";
+        out.table(heads, rows);
+        out.line("");
         let mut each = contacts.iter();
         if flat && each.any(|(.., f)| f.axial.abs() > 1e-6 * f.normal) {
-            writeln!(
-                out,
-                "Forces along the part are across the plane of motion and omitted below; --spatial includes them.\n"
-            )?;
+            let spatial = flag("spatial", "");
+            out.line(format!(
+                "Forces along the part are across the plane of motion and omitted below; {spatial} includes them.\n"
+            ));
         }
-        Ok(())
     }
 }

@@ -1,13 +1,11 @@
 //! The clamping force along a motion: one value from which text, JSON and a chart are made. SI units.
 
 use crate::chart::{Axis, Chart, Series, Style};
-use crate::format::{plural, significant};
 use crate::grip::clamping::HoldVerdict;
 use crate::grip::motion::StepTaken;
 use crate::model::mechanism::LengthUnit;
-use crate::view::terminal::layout::{fit, table};
-use serde_json::{Value, json};
-use std::fmt::Write;
+use crate::view::grip::text::number;
+use crate::view::prelude::*;
 
 /// Rows shown before the rest is left out.
 const SHOWN: usize = 40;
@@ -32,13 +30,11 @@ fn word(s: &StepTaken) -> &'static str {
 
 impl GripMotion {
     /// Returns whether the part can be held at every step.
-    #[must_use]
     pub fn holds(&self) -> bool {
         self.steps.iter().all(|s| s.drive().is_some())
     }
 
     /// Returns it as data.
-    #[must_use]
     pub(super) fn json(&self) -> Value {
         let step = |s: &StepTaken| {
             let bound = match &s.verdict {
@@ -75,56 +71,45 @@ impl GripMotion {
         }
     }
 
-    /// For people, fitted to a terminal of `width` columns where one is given.
-    #[must_use]
+    /// Returns it for people, fitted to a terminal of `width` columns if one is given.
     pub fn text(&self, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "\n  Along the motion, {}: {}\n",
-            plural(self.steps.len(), "step"),
-            self.verdict()
-        );
-        let symbol = self.unit.symbol;
+        let (mut out, all) = (Report::new(width), self.steps.len());
+        let (steps, verdict) = (plural(all, "step"), self.verdict());
+        out.line(format!("\n  Along the motion, {steps}: {verdict}\n"));
         let turns = |s: &StepTaken| s.effort.is_some_and(|(_, slides)| !slides);
         let effort = if self.steps.iter().any(turns) {
-            "drive, N·m"
+            "N·m"
         } else {
-            "drive, N"
+            "N"
         };
-        let diameter = format!("D, {symbol}");
-        let head = [
-            "step",
-            "time, s",
-            &diameter,
-            "acceleration, m/s²",
-            "moment per lever, N·m",
-            effort,
-            "",
-        ];
-        let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
+        let symbol = self.unit.symbol;
+        let heads = format!(
+            "step | time, s | D, {symbol} | acceleration, m/s² | moment per lever, N·m | drive, {effort} | "
+        );
         let rows = self.steps.iter().take(SHOWN).enumerate().map(|(i, s)| {
-            vec![
-                (i + 1).to_string(),
-                number(s.of.time),
-                significant(s.diameter / self.unit.metres),
-                s.of.acceleration.map(significant).join(", "),
-                number(s.drive()),
-                number(s.effort.map(|e| e.0)),
-                word(s).to_owned(),
-            ]
+            let diameter = significant(s.diameter / self.unit.metres);
+            let acceleration = s.of.acceleration.map(significant).join(", ");
+            let [time, drive, effort] = [s.of.time, s.drive(), s.effort.map(|e| e.0)].map(number);
+            cells([
+                &(i + 1),
+                &time,
+                &diameter,
+                &acceleration,
+                &drive,
+                &effort,
+                &word(s),
+            ])
         });
-        let _ = writeln!(out, "{}", table(&head, rows.collect(), width));
-        if self.steps.len() > SHOWN {
-            let left = plural(self.steps.len() - SHOWN, "step");
-            let _ = writeln!(out, "\n  and {left} more; --format json has them all");
+        out.table(&heads, rows);
+        if let left @ 1.. = all.saturating_sub(SHOWN) {
+            let left = plural(left, "step");
+            let json = flag("format", "json");
+            out.line(format!("\n  and {left} more; {json} has them all"));
         }
-        fit(&out, width)
+        out.text()
     }
 
     /// The moment, and the drive's effort where it is known, over the motion.
-    #[must_use]
     pub fn chart(&self, mechanism: &str) -> Chart {
         let timed = self.steps.iter().all(|s| s.of.time.is_some());
         #[allow(clippy::cast_precision_loss, reason = "at most 1e5 steps")]

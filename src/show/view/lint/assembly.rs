@@ -1,10 +1,9 @@
 //! What is said of joints of CAD assemblies besides: misfits and other types.
 
 use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::redundancy::release::Release;
 use crate::robots::Origin;
-use serde::Serialize;
+use crate::view::prelude::*;
 
 /// Another type for a joint of a CAD assembly.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -32,7 +31,6 @@ impl TypeChange {
     }
 
     /// What more freedoms make of one; none where it is no assembly, or has no such type.
-    #[must_use]
     pub fn at(
         m: &Mechanism,
         origin: &Origin,
@@ -51,7 +49,6 @@ impl TypeChange {
     }
 
     /// "Hinge: Revolute -> Ball".
-    #[must_use]
     pub fn words(&self) -> String {
         format!("{}: {} -> {}", self.joint, self.from, self.to)
     }

@@ -1,16 +1,14 @@
 //! A redundant constraint of a robot description in words, and a file that nothing can be said of but why.
 
 use super::assembly::{Misfit, TypeChange};
+use crate::format::brief;
 use crate::format::plain::line;
-use crate::format::{brief, cost};
 use crate::geom::vector::Vector;
-use crate::model::mechanism::{JointId, Mechanism, StateId};
 use crate::redundancy::duplicate_constraints::HeldTwice;
 use crate::redundancy::release::{Duplicate, Release, becomes};
 use crate::robots::{ElementPlace, Origin};
-use itertools::Itertools;
-use serde::Serialize;
-use serde_json::{Value, json};
+use crate::view::lint::NONE;
+use crate::view::prelude::*;
 
 /// Remedies told of each finding.
 const REMEDIES: usize = 3;
@@ -164,7 +162,6 @@ impl LintWords<'_> {
 }
 
 /// A release in words: "let a slide along y: revolute -> cylindrical".
-#[must_use]
 pub fn words(m: &Mechanism, release: &Release) -> String {
     match *release {
         Release::Coupling(q) => {
@@ -214,7 +211,6 @@ pub struct PassedOver {
 
 impl PassedOver {
     /// Why a file is passed over.
-    #[must_use]
     pub fn new(file: &str, why: &str, rigid: bool) -> PassedOver {
         let line = why.lines().next().unwrap_or_default();
         // The file stands in front of the line already: `FILE:3:7: why`, `FILE: why` or `FILE is no such thing`.
@@ -230,11 +226,10 @@ impl PassedOver {
     }
 
     /// A line for people.
-    #[must_use]
     pub fn text(&self) -> String {
         let (file, why) = (line(&self.file), line(&self.why));
         if self.rigid {
-            format!("{file}: nothing is redundant: {why}\n")
+            format!("{file}: {NONE}: {why}\n")
         } else {
             format!("{file}: not examined: {why}\n")
         }

@@ -1,307 +1,233 @@
 //! Joint reactions over a stroke.
 
 use crate::format::csv::table;
-use crate::format::{figure, plural};
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::statics::reactions::drives::slides;
-use crate::statics::reactions::{Cycle, NEARLY_SINGULAR};
-use crate::view::reactions::text::ADD_LOADS;
-use crate::view::reactions::{HEADS, JointForces, Reactions, couplings};
-use crate::view::terminal::layout::{prefix, table as text_table};
-use serde::Serialize;
-use std::fmt::Write;
+use crate::statics::reactions::{Cycle, JointReaction, NEARLY_SINGULAR};
+use crate::view::prelude::*;
+use crate::view::reactions::couplings::{unit, write_greatest};
+use crate::view::reactions::text::{ADD_LOADS, pushing};
+use crate::view::reactions::{HEADS, Reactions, holds, touch};
 
 /// Reactions by position of the first drive.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct ReactionsOverStroke<'a> {
-    /// Name of the mechanism.
-    pub mechanism: &'a str,
-    /// Its state.
-    pub state: &'a str,
-    /// The positions that were reached.
-    pub positions: Vec<Position<'a>>,
-    /// The first that could not be, `[rad]` or the file's unit.
-    pub stopped: Option<f64>,
-    /// The mechanism, for its loads.
-    #[serde(skip)]
-    pub of: &'a Mechanism,
-    /// Whether the first drive slides.
-    #[serde(skip)]
-    pub slides: bool,
-}
-
-/// Reactions at a position of the first drive since the pose of the file, `[rad]` or the file's unit.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-pub enum Position<'a> {
-    /// Where there are any.
-    Solved {
-        /// The reactions.
-        #[serde(flatten)]
-        reactions: Box<Reactions<'a>>,
-        /// The position.
-        drive: f64,
-    },
-    /// Where there are none.
-    Unsolved {
-        /// The position.
-        drive: f64,
-        /// Why.
-        error: String,
-    },
+    /// The mechanism.
+    pub(super) of: &'a Mechanism,
+    pub(super) state: StateId,
+    found: &'a Cycle,
 }
 
 impl<'a> ReactionsOverStroke<'a> {
-    /// What was found of a state.
-    #[must_use]
-    pub fn new(m: &'a Mechanism, state: StateId, c: &Cycle) -> Self {
-        let positions = c.positions.iter().map(|(drive, s)| match s {
-            Ok(s) => Position::Solved {
-                reactions: Box::new(Reactions::new(m, state, s)),
-                drive: *drive,
-            },
-            Err(e) => Position::Unsolved {
-                drive: *drive,
-                error: e.to_string(),
-            },
-        });
-        ReactionsOverStroke {
-            mechanism: &m.name,
-            state: &m.states[state],
-            positions: positions.collect(),
-            stopped: c.stopped,
-            of: m,
-            slides: c.drives.first().is_some_and(|d| slides(d.1)),
-        }
+    /// The reactions of a state.
+    pub fn new(of: &'a Mechanism, state: StateId, found: &'a Cycle) -> Self {
+        ReactionsOverStroke { of, state, found }
     }
 
-    fn solved(&self) -> impl Iterator<Item = (f64, &Reactions<'a>)> {
-        self.positions.iter().filter_map(|p| match p {
-            Position::Solved { reactions, drive } => Some((*drive, &**reactions)),
-            Position::Unsolved { .. } => None,
+    /// Returns the positions that have reactions.
+    pub(super) fn solved(&self) -> impl Iterator<Item = (f64, Reactions<'a>)> {
+        let reactions = |s| Reactions::new(self.of, self.state, s);
+        let positions = self.found.positions.iter();
+        positions.filter_map(move |(at, s)| Some((*at, reactions(s.as_ref().ok()?))))
+    }
+
+    /// Returns all of it as data. Positions are since the pose of the file, `[rad]` or the file's unit.
+    pub fn json(&self) -> Value {
+        let position = |(drive, s): &(f64, Result<_, _>)| match s {
+            Ok(s) => {
+                let reactions = Reactions::new(self.of, self.state, s).json();
+                joined([reactions, json!({ "drive": drive })])
+            }
+            Err(e) => json!({ "drive": drive, "error": ToString::to_string(e) }),
+        };
+        json!({
+            "mechanism": self.of.name,
+            "state": self.of.states[self.state],
+            "positions": self.found.positions.iter().map(position).collect::<Value>(),
+            // The first that could not be reached.
+            "stopped": self.found.stopped,
         })
     }
 
-    /// One joint and position a line.
-    #[must_use]
+    /// Returns one joint and position a line.
     pub fn csv(&self) -> String {
-        let mut heads = vec!["drive"];
-        heads.extend(HEADS);
-        let rows = self.solved().flat_map(|(at, r)| {
-            r.rows().map(move |mut row| {
-                row.insert(0, at.to_string());
-                row
-            })
+        let heads = [&["drive"], &HEADS[..]].concat();
+        let solved = self.solved().collect_vec();
+        let rows = solved.iter().flat_map(|(at, r)| {
+            r.rows()
+                .map(move |row| [vec![at.to_string()], row].concat())
         });
         table(&heads, rows)
     }
 
-    /// The report, fitted to a terminal of `width` columns where one is given.
-    #[must_use]
-    pub fn text(&self, width: Option<u16>) -> String {
-        let mut out = String::new();
-        // Writing to a string cannot fail.
-        let _ = self.write(&mut out, width);
-        out
+    fn slides(&self) -> bool {
+        self.found.drives.first().is_some_and(|d| slides(d.1))
     }
 
-    /// The unit of positions.
-    fn unit(&self) -> &'static str {
-        if self.slides {
+    /// Returns the unit of positions in texts.
+    pub(super) fn unit(&self) -> &'static str {
+        if self.slides() {
             self.of.length_unit.symbol
         } else {
             "°"
         }
     }
 
-    /// A position in that unit.
-    fn at(&self, x: f64) -> String {
-        figure(if self.slides { x } else { x.to_degrees() })
+    /// Returns a position in that unit.
+    pub(super) fn shown(&self, x: f64) -> f64 {
+        if self.slides() { x } else { x.to_degrees() }
     }
 
-    fn write(&self, out: &mut String, width: Option<u16>) -> std::fmt::Result {
-        let all: Vec<(f64, &Reactions)> = self.solved().collect();
-        self.head(out, &all)?;
+    /// Returns a position with its unit.
+    fn place(&self, x: f64) -> String {
+        format!("{} {}", figure(self.shown(x)), self.unit())
+    }
+
+    /// Returns the report, fitted to a terminal of `width` columns if one is given.
+    pub fn text(&self, width: Option<u16>) -> String {
+        let mut out = Report::new(width);
+        let all = self.solved().collect_vec();
+        self.write_head(&mut out, &all);
         let Some((_, first)) = all.first() else {
-            return writeln!(out, "No pose was reached.");
+            out.line("No pose was reached.");
+            return out.text();
         };
-        self.peaks(out, &all, first, width)?;
-        self.contacts(out, &all, first)?;
-        self.drives(out, &all, first)?;
-        let unit = self.unit();
-        let passed: Vec<_> = all.iter().map(|(at, r)| (*at, &r.couplings[..])).collect();
-        couplings::greatest(out, &passed, &|x| format!("{} {unit}", self.at(x)))?;
-        self.equilibrium(out, &all)?;
-        for position in &self.positions {
-            if let Position::Unsolved { drive, error } = position {
-                writeln!(out, "At {} {unit}: {error}", self.at(*drive))?;
+        self.write_peaks(&mut out, &all, first);
+        self.write_contacts(&mut out, &all, first);
+        self.write_drives(&mut out, &all, first);
+        let passed = all.iter().map(|(at, r)| (*at, r.couplings())).collect_vec();
+        write_greatest(&mut out, &passed, &|x| self.place(x));
+        self.write_equilibrium(&mut out, &all);
+        for (drive, s) in &self.found.positions {
+            if let Err(e) = s {
+                out.line(format!("At {}: {e}", self.place(*drive)));
             }
         }
-        if let Some(place) = self.stopped {
-            writeln!(
-                out,
-                "The stroke could not be followed to {} {unit}; `ozols analyze --stroke` says why",
-                self.at(place)
-            )?;
+        if let Some(place) = self.found.stopped {
+            out.line(format!(
+                "The stroke could not be followed to {}; `ozols analyze {}` says why",
+                self.place(place),
+                flag("stroke", "")
+            ));
         }
-        Ok(())
+        out.text()
     }
 
-    /// Over what the reactions are the greatest.
-    fn head(&self, out: &mut String, all: &[(f64, &Reactions<'_>)]) -> std::fmt::Result {
-        writeln!(
-            out,
-            "{}, state {}: greatest joint reactions over {}{}",
-            self.mechanism,
-            self.state,
-            plural(all.len(), "pose"),
-            if all.iter().any(|(_, r)| !r.unique) {
-                ", of minimum norm where redundant constraints leave them open"
-            } else {
-                ""
-            }
-        )?;
-        let moving = self.of.loads.drive_speeds.iter().any(|s| *s != 0.0);
-        writeln!(
-            out,
-            "{}\n",
-            if moving {
-                "Inertia forces of the stated drive speed included; drives at constant speed"
-            } else {
-                "Drives at rest: no inertia forces; workload.drive_speed adds them"
-            }
-        )
-    }
-
-    /// The greatest reactions of each joint, and where.
-    fn peaks(
-        &self,
-        out: &mut String,
-        all: &[(f64, &Reactions<'_>)],
-        first: &Reactions<'_>,
-        width: Option<u16>,
-    ) -> std::fmt::Result {
-        let unit = self.unit();
-        let greatest_of = |i: usize, size: fn(&JointForces) -> f64| {
-            let each = all.iter().map(|(at, r)| (size(&r.reactions[i]), *at));
-            each.max_by(|a, b| a.0.total_cmp(&b.0))
-                .unwrap_or((0.0, 0.0))
+    /// Says over what the reactions are the greatest.
+    fn write_head(&self, out: &mut Report, all: &[(f64, Reactions<'_>)]) {
+        let open = if all.iter().any(|(_, r)| !r.is_unique()) {
+            ", of minimum norm where redundant constraints leave them open"
+        } else {
+            ""
         };
-        let peaks: Vec<_> = (0..first.reactions.len())
-            .map(|i| {
-                let force = greatest_of(i, |j| j.force_magnitude);
-                (
-                    &first.reactions[i],
-                    force,
-                    greatest_of(i, |j| j.moment_magnitude),
-                )
-            })
-            .collect();
-        let greatest = peaks.iter().map(|p| p.1.0.max(p.2.0)).fold(0.0, f64::max);
+        let (name, state) = (&self.of.name, &self.of.states[self.state]);
+        let poses = plural(all.len(), "pose");
+        out.line(format!(
+            "{name}, state {state}: greatest joint reactions over {poses}{open}"
+        ));
+        out.line(if self.of.loads.drive_speeds.iter().any(|s| *s != 0.0) {
+            "Inertia forces of the stated drive speed included; drives at constant speed\n"
+        } else {
+            "Drives at rest: no inertia forces; workload.drive_speed adds them\n"
+        });
+    }
+
+    /// Adds the greatest reactions of each joint, and where they are.
+    fn write_peaks(&self, out: &mut Report, all: &[(f64, Reactions<'_>)], first: &Reactions<'_>) {
+        let greatest_of = |i: usize, size: fn(&JointReaction) -> f64| {
+            let each = all.iter().map(|(at, r)| (size(&r.found.reactions[i]), *at));
+            each.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+        };
+        let peaks = first.found.reactions.iter().enumerate().map(|(i, r)| {
+            let sizes = [JointReaction::force_size, JointReaction::moment_size];
+            (r.joint, sizes.map(|size| greatest_of(i, size)))
+        });
+        let peaks = peaks.collect_vec();
+        let greatest = peaks
+            .iter()
+            .flat_map(|(_, of)| of.map(|x| x.0))
+            .fold(0.0, f64::max);
         let (scale, prefix) = prefix(greatest);
-        let size = |x: f64| figure(x / scale);
         if greatest == 0.0 {
-            writeln!(out, "The loads are nothing here: {ADD_LOADS}.\n")?;
+            out.line(format!("The loads are nothing here: {ADD_LOADS}.\n"));
         }
-        let rows = peaks.iter().map(|(joint, force, moment)| {
-            let mut row = [joint.joint, joint.kind].map(str::to_owned).to_vec();
-            row.extend([
-                size(force.0),
-                self.at(force.1),
-                size(moment.0),
-                self.at(moment.1),
-            ]);
+        let rows = peaks.iter().map(|(joint, of)| {
+            let mut row = first.joint_and_type(*joint).to_vec();
+            row.extend(
+                of.iter()
+                    .flat_map(|(x, at)| [x / scale, self.shown(*at)])
+                    .map(figure),
+            );
             row
         });
-        let (n, nm, place) = (
-            format!("|F|, {prefix}N"),
-            format!("|M|, {prefix}N·m"),
-            format!("at, {unit}"),
+        let at = self.unit();
+        out.table(
+            &format!("joint |  | |F|, {prefix}N | at, {at} | |M|, {prefix}N·m | at, {at}"),
+            rows,
         );
-        let header = ["joint", "", &n, &place, &nm, &place];
-        writeln!(out, "{}\n", text_table(&header, rows.collect(), width))
+        out.line("");
     }
 
-    /// Where contacts are asked for what faces cannot do.
-    fn contacts(
+    /// Names contacts that would have to do what faces cannot.
+    fn write_contacts(
         &self,
-        out: &mut String,
-        all: &[(f64, &Reactions<'_>)],
+        out: &mut Report,
+        all: &[(f64, Reactions<'_>)],
         first: &Reactions<'_>,
-    ) -> std::fmt::Result {
-        let unit = self.unit();
-        for (i, contact) in first.contacts.iter().enumerate() {
-            let bad = all.iter().filter(|(_, r)| !r.contacts[i].holds());
-            let bad: Vec<&(f64, &Reactions)> = bad.collect();
-            if let Some((from, r)) = bad.first() {
-                writeln!(
-                    out,
-                    "NOT AS CONTACTS ACT: {} in {}, first at {} {unit}, where it {}; --unilateral solves with contacts that only push",
-                    contact.contact,
+    ) {
+        for (i, contact) in first.found.contacts.iter().enumerate() {
+            let touches = all.iter().map(|(at, r)| (*at, &r.found.contacts[i]));
+            let bad = touches.filter(|(_, c)| !holds(c)).collect_vec();
+            if let Some((from, c)) = bad.first() {
+                out.line(format!(
+                    "NOT AS CONTACTS ACT: {} in {}, first at {}, where it {}; {}",
+                    first.joint(contact.joint),
                     plural(bad.len(), "pose"),
-                    self.at(*from),
-                    r.contacts[i].touch
-                )?;
+                    self.place(*from),
+                    touch(c),
+                    pushing()
+                ));
             }
         }
-        Ok(())
     }
 
-    /// What each drive must do, at least and at most.
-    fn drives(
-        &self,
-        out: &mut String,
-        all: &[(f64, &Reactions<'_>)],
-        first: &Reactions<'_>,
-    ) -> std::fmt::Result {
-        let unit = self.unit();
-        for (i, joint) in first.reactions.iter().enumerate() {
-            let Some(drive) = &joint.drive else { continue };
-            let each = all.iter().filter_map(|(at, r)| {
-                let effort = r.reactions[i].drive.as_ref()?.effort;
-                Some((effort, *at))
-            });
-            let each: Vec<(f64, f64)> = each.collect();
+    /// Adds the least and greatest effort of each drive.
+    fn write_drives(&self, out: &mut Report, all: &[(f64, Reactions<'_>)], first: &Reactions<'_>) {
+        for (i, joint) in first.found.reactions.iter().enumerate() {
+            let Some((freedom, _)) = joint.effort else {
+                continue;
+            };
+            let each = all
+                .iter()
+                .filter_map(|(at, r)| Some((r.found.reactions[i].effort?.1, *at)));
+            let each = each.collect_vec();
             let least = each.iter().min_by(|a, b| a.0.total_cmp(&b.0));
             let most = each.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-            let unit_of = if drive.slides { "N" } else { "N·m" };
-            if let (Some(least), Some(most)) = (least, most) {
-                writeln!(
-                    out,
-                    "Drive {} holds {}: from {} {unit_of} at {} {unit} to {} {unit_of} at {} {unit}",
-                    joint.joint,
-                    drive.freedom,
-                    figure(least.0),
-                    self.at(least.1),
-                    figure(most.0),
-                    self.at(most.1)
-                )?;
+            let words = |(x, at): &(f64, f64)| {
+                format!("{} {} at {}", figure(*x), unit(freedom), self.place(*at))
+            };
+            if let (Some(least), Some(most)) = (least.map(words), most.map(words)) {
+                let (id, freedom) = (first.joint(joint.joint), freedom.name());
+                out.line(format!(
+                    "Drive {id} holds {freedom}: from {least} to {most}"
+                ));
             }
         }
-        Ok(())
     }
 
-    /// How well the equations are solved, where that is worst.
-    fn equilibrium(&self, out: &mut String, all: &[(f64, &Reactions<'_>)]) -> std::fmt::Result {
-        let unit = self.unit();
-        let worst = all
-            .iter()
-            .max_by(|a, b| a.1.condition.total_cmp(&b.1.condition));
-        let residual = all.iter().map(|(_, r)| r.residual).fold(0.0, f64::max);
-        if let Some((place, r)) = worst {
-            writeln!(
-                out,
-                "Equilibrium: condition up to {} at {} {unit}, residual up to {residual:.0e} of the load",
-                figure(r.condition),
-                self.at(*place)
-            )?;
-            if r.nearly_singular {
-                writeln!(
-                    out,
-                    "Warning: nearly singular there (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
-                )?;
-            }
+    /// Says how well the equations are solved where that is worst.
+    fn write_equilibrium(&self, out: &mut Report, all: &[(f64, Reactions<'_>)]) {
+        let solved = all.iter().map(|(at, r)| (*at, r.found));
+        let residual = solved.clone().map(|(_, s)| s.residual).fold(0.0, f64::max);
+        let worst = solved.max_by(|a, b| a.1.condition.total_cmp(&b.1.condition));
+        let Some((place, s)) = worst else { return };
+        let (condition, at) = (figure(s.condition), self.place(place));
+        out.line(format!(
+            "Equilibrium: condition up to {condition} at {at}, residual up to {residual:.0e} of the load"
+        ));
+        if s.nearly_singular() {
+            out.line(format!(
+                "Warning: nearly singular there (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
+            ));
         }
-        Ok(())
     }
 }

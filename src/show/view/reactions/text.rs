@@ -1,16 +1,16 @@
 //! Joint reactions in one pose for people.
 
-use crate::format::{figure, list, plural, significant};
-use crate::statics::reactions::NEARLY_SINGULAR;
-use crate::view::reactions::{JointForces, ObjectContact, Reactions, couplings};
-use crate::view::terminal::layout::{fit, prefix, table};
-use std::fmt::Write;
+use crate::statics::reactions::contact::{ContactForce, Touch};
+use crate::statics::reactions::{JointReaction, NEARLY_SINGULAR, Uniqueness};
+use crate::view::prelude::*;
+use crate::view::reactions::couplings::{couplings, unit, write, write_elastic};
+use crate::view::reactions::{Reactions, holds, open_components, touch};
 
 /// The remedy for a file that states no loads.
 pub(super) const ADD_LOADS: &str =
     "give links a mass and centre and the [workload] gravity, or forces under [[workload.force]]";
 
-/// What misalignments do where no redundant constraint is left.
+/// The effect of misalignments if no redundant constraint is left.
 pub(crate) const NO_STRAIN: &str = "Misalignments cause no reactions here: the mechanism is determinate and assembles without strain.";
 
 /// Returns the sentence on a file that states no loads, but perhaps misalignments.
@@ -22,307 +22,283 @@ pub(crate) fn no_loads(misalignments: usize) -> String {
     format!("The file states no loads{only}: {ADD_LOADS}.")
 }
 
-/// Self-stresses told at most.
-const STRESSES: usize = 12;
-
-fn joints(list: &[JointForces<'_>], size: f64, width: Option<u16>) -> String {
-    let greatest = list
-        .iter()
-        .map(|r| r.force_magnitude.max(r.moment_magnitude / size))
-        .fold(0.0, f64::max);
-    let (unit, prefix) = prefix(greatest);
-    let rows = list.iter().map(|r| {
-        let mut row = [r.joint, r.kind].map(str::to_owned).to_vec();
-        for (vector, magnitude) in [
-            (r.reaction.force, r.force_magnitude),
-            (r.reaction.moment, r.moment_magnitude),
-        ] {
-            row.extend(vector.map(|x| figure(x / unit)));
-            row.push(figure(magnitude / unit));
-        }
-        row
-    });
-    let (n, nm) = (format!("|F|, {prefix}N"), format!("|M|, {prefix}N·m"));
-    let header = ["joint", "", "Fx", "Fy", "Fz", &n, "Mx", "My", "Mz", &nm];
-    table(&header, rows.collect(), width)
-}
-
-/// What the faces on objects are asked to do.
-fn contacts(list: &[ObjectContact<'_>], width: Option<u16>) -> String {
-    let greatest = list.iter().map(|c| c.force.normal.abs().max(c.force.along));
-    let greatest = greatest.fold(0.0, f64::max);
-    let (unit, prefix) = prefix(greatest);
-    let show = |x: f64| figure(x / unit);
-    let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
-    let rows = list.iter().map(|c| {
-        let force = c.force;
-        let mut row = [c.contact, c.touch].map(str::to_owned).to_vec();
-        row.extend([
-            show(force.normal),
-            show(force.along),
-            stated(force.friction),
-        ]);
-        row.extend([show(force.tilting), stated(force.radius)]);
-        row
-    });
-    let head = [
-        "contact".to_owned(),
-        String::new(),
-        format!("normal, {prefix}N"),
-        format!("along the face, {prefix}N"),
-        "friction".to_owned(),
-        format!("tilting, {prefix}N·m"),
-        "face radius, m".to_owned(),
-    ];
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    table(&head, rows.collect(), width)
-}
-
-/// Says first where contacts are asked for what faces cannot do.
-fn refuted(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    let bad: Vec<&ObjectContact> = s.contacts.iter().filter(|c| !c.holds()).collect();
-    for c in &bad {
-        let (unit, prefix) = prefix(c.force.normal.abs().max(c.force.along));
-        let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
-        let limit = |x: Option<f64>| x.map_or_else(String::new, significant);
-        let what = match c.touch {
-            "pulls" => format!("would pull with {}", force(-c.force.normal)),
-            "slips" => format!(
-                "would need friction of {} under {}, more than the coefficient {} gives",
-                force(c.force.along),
-                force(c.force.normal),
-                limit(c.force.friction)
-            ),
-            _ => format!(
-                "would need its pressure beyond the face's radius of {} m",
-                limit(c.force.radius)
-            ),
-        };
-        writeln!(out, "NOT AS CONTACTS ACT: {} {what}", c.contact)?;
-    }
-    if !bad.is_empty() {
-        let way = if s.unique {
-            "no other reactions are in equilibrium, so the object is not held"
-        } else {
-            "--unilateral solves with contacts that only push"
-        };
-        writeln!(out, "  contacts are taken as joints here; {way}")?;
-    }
-    Ok(())
-}
-
-/// Which components the choice within the family is about.
-fn left_open(s: &Reactions<'_>) -> String {
-    let mut alike: Vec<(&[&str], Vec<&str>)> = Vec::new();
-    for r in s.reactions.iter().filter(|r| !r.open.is_empty()) {
-        match alike.iter_mut().find(|(open, _)| *open == r.open) {
-            Some((_, joints)) => joints.push(r.joint),
-            None => alike.push((&r.open, vec![r.joint])),
-        }
-    }
-    let each = alike
-        .iter()
-        .map(|(open, joints)| format!("{} of {}", list(open), list(joints)));
-    let mut each: Vec<String> = each.collect();
-    let passed = s.couplings.iter().filter(|c| c.open);
-    let passed: Vec<&str> = passed.map(|c| c.coupling.as_str()).collect();
-    if !passed.is_empty() {
-        each.push(format!("what {} pass", list(&passed)));
-    }
+/// Returns the remedy for contacts that would pull.
+pub(super) fn pushing() -> String {
     format!(
-        "Left open by the self-stresses: {}; all else is the same in the whole family",
-        each.join("; ")
+        "{} solves with contacts that only push",
+        flag("unilateral", "")
     )
 }
 
-/// The report, fitted to a terminal of `width` columns where one is given; `pose` in words.
-#[must_use]
-pub fn reactions(s: &Reactions<'_>, pose: &str, width: Option<u16>) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = write(&mut out, s, pose, width);
-    fit(&out, width)
+/// Maximum number of self-stresses in a text.
+const STRESSES: usize = 12;
+
+/// Returns a number of self-stresses in words.
+fn stresses(n: usize) -> String {
+    let many = if n == 1 { "" } else { "es" };
+    format!("{n} self-stress{many}")
 }
 
-fn write(out: &mut String, s: &Reactions<'_>, pose: &str, width: Option<u16>) -> std::fmt::Result {
-    head(out, s, pose)?;
-    refuted(out, s)?;
-    writeln!(
-        out,
-        "First link on second, in the joint's own frame (z its axis), moments about its point\n"
-    )?;
-    if !s.unique {
-        writeln!(out, "{}\n", left_open(s))?;
-    }
-    of_loads(out, s)?;
-    writeln!(out, "{}\n", joints(&s.reactions, s.size, width))?;
-    if !s.contacts.is_empty() {
-        writeln!(out, "{}\n", contacts(&s.contacts, width))?;
-    }
-    couplings::text(out, &s.couplings, width)?;
-    drives(out, s)?;
-    equilibrium(out, s)?;
-    if !s.self_stresses.is_empty() {
-        family(out, s)?;
-    }
-    elastic(out, s, width)
-}
-
-/// What a number of self-stresses is called.
-fn stresses(n: usize) -> &'static str {
-    if n == 1 {
-        "self-stress"
-    } else {
-        "self-stresses"
-    }
-}
-
-/// Which reactions these are, and whether numbers decide it.
-fn head(out: &mut String, s: &Reactions<'_>, pose: &str) -> std::fmt::Result {
-    let open = s.self_stresses.len();
-    let what = if s.unique {
-        "the only ones in equilibrium".to_owned()
-    } else if s.choice == "pushing" {
-        format!(
-            "of minimum norm among those in which contacts only push: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
-            figure(s.size)
-        )
-    } else {
-        format!(
-            "of minimum norm among a family with {open} {}: Σ |F|² + |M|²/ℓ² least, ℓ = {} m",
-            stresses(open),
-            figure(s.size)
-        )
-    };
-    writeln!(
-        out,
-        "{}, state {}, {pose}: joint reactions, {what}",
-        s.mechanism, s.state
-    )?;
-    if let Some(n) = s.exact_self_stresses {
-        writeln!(
-            out,
-            "NOT DECIDED BY NUMBERS: in exact geometry there are {}, and the difference is below what singular values tell from zero; look for points or axes that are nearly alike",
-            if n == 1 {
-                "1 self-stress".to_owned()
-            } else {
-                format!("{n} self-stresses")
-            }
-        )?;
-    }
-    Ok(())
-}
-
-/// What the reactions answer to, where it is not what a reader would expect.
-fn of_loads(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    let (m, loads) = (s.of, &s.of.loads);
-    if loads.drive_speeds.iter().any(|s| *s != 0.0) {
-        writeln!(out, "Inertia forces of the stated drive speed included\n")?;
-    }
-    let accelerated = loads.gravity.is_some() || loads.drive_speeds.iter().any(|s| *s != 0.0);
-    let no_mass = m.links.iter().all(|l| l.mass.is_none()) || !accelerated;
-    let outside = m
-        .state(s.state)
-        .is_some_and(|state| loads.acts_from_outside(state));
-    if no_mass && !outside {
-        writeln!(out, "{}\n", no_loads(loads.misalignments.len()))?;
-    }
-    Ok(())
-}
-
-/// What the drives must do.
-fn drives(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    for r in &s.reactions {
-        let Some(d) = &r.drive else { continue };
-        let (what, unit) = if d.slides {
-            ("force", "N")
-        } else {
-            ("torque", "N·m")
-        };
-        writeln!(
-            out,
-            "Drive {} holds {}: {what} {} {unit}",
-            r.joint,
-            d.freedom,
-            figure(d.effort)
-        )?;
-    }
-    Ok(())
-}
-
-/// How well the equations are solved.
-fn equilibrium(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    if s.undriven > 0 {
-        writeln!(
-            out,
-            "{} left with the drives held, on which the loads do no work",
-            plural(s.undriven, "freedom")
-        )?;
-    }
-    writeln!(
-        out,
-        "Equilibrium: condition {}, residual {:.0e} of the load",
-        figure(s.condition),
-        s.residual
-    )?;
-    if s.nearly_singular {
-        writeln!(
-            out,
-            "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
-        )?;
-    }
-    Ok(())
-}
-
-/// The self-stresses that may be added, by the joints each loads.
-fn family(out: &mut String, s: &Reactions<'_>) -> std::fmt::Result {
-    let open = s.self_stresses.len();
-    writeln!(
-        out,
-        "\nRedundant constraints leave these reactions open: any multiples of the {open} {} may be added{}",
-        stresses(open),
-        if s.choice == "pushing" {
-            " with which contacts still push"
-        } else {
-            ""
+impl Reactions<'_> {
+    /// Returns the report, fitted to a terminal of `width` columns if one is given; `pose` in words.
+    pub fn text(&self, pose: &str, width: Option<u16>) -> String {
+        let (s, mut out) = (self.found, Report::new(width));
+        self.write_head(&mut out, pose);
+        self.write_refuted(&mut out);
+        out.line(
+            "First link on second, in the joint's own frame (z its axis), moments about its point\n",
+        );
+        if !self.is_unique() {
+            out.line(self.left_open() + "\n");
         }
-    )?;
-    let both = s.self_stresses.iter().zip(&s.coupling_stresses);
-    for (i, (stress, coupled)) in both.take(STRESSES).enumerate() {
-        let loaded = stress
-            .iter()
-            .filter(|r| r.force_magnitude > 1e-9 || r.moment_magnitude > 1e-9 * s.size);
-        let coupled = couplings::loaded(coupled, s.size);
-        let names: Vec<&str> = loaded.map(|r| r.joint).chain(coupled).collect();
-        writeln!(out, "  {}: {}", i + 1, names.join(", "))?;
+        self.write_loads(&mut out);
+        self.write_joints(&mut out, &s.reactions);
+        out.line("");
+        if !s.contacts.is_empty() {
+            self.write_contacts(&mut out);
+        }
+        write(&mut out, &self.couplings());
+        for r in &s.reactions {
+            let Some((freedom, effort)) = r.effort else {
+                continue;
+            };
+            let unit = unit(freedom);
+            let what = if unit == "N" { "force" } else { "torque" };
+            let (id, freedom, effort) = (self.joint(r.joint), freedom.name(), figure(effort));
+            out.line(format!(
+                "Drive {id} holds {freedom}: {what} {effort} {unit}"
+            ));
+        }
+        self.write_equilibrium(&mut out);
+        if !s.self_stresses.is_empty() {
+            self.write_family(&mut out);
+        }
+        self.write_elastic(&mut out);
+        out.text()
     }
-    if open > STRESSES {
-        writeln!(out, "  and {} more", open - STRESSES)?;
-    }
-    Ok(())
-}
 
-/// Which of the family elastic joints choose, or what to state to see it.
-fn elastic(out: &mut String, s: &Reactions<'_>, width: Option<u16>) -> std::fmt::Result {
-    let (open, loads) = (s.self_stresses.len(), &s.of.loads);
-    match &s.elastic {
-        Some(list) => {
-            let askew = match loads.misalignments.len() {
+    fn write_joints(&self, out: &mut Report, list: &[JointReaction]) {
+        let size = self.found.size;
+        let each = list
+            .iter()
+            .map(|r| r.force_size().max(r.moment_size() / size));
+        let (unit, n) = prefix(each.fold(0.0, f64::max));
+        let rows = list.iter().map(|r| {
+            let mut row = self.joint_and_type(r.joint).to_vec();
+            for ([x, y, z], size) in [(r.force, r.force_size()), (r.moment, r.moment_size())] {
+                row.extend([x, y, z, size].map(|x| figure(x / unit)));
+            }
+            row
+        });
+        let heads = format!("joint |  | Fx | Fy | Fz | |F|, {n}N | Mx | My | Mz | |M|, {n}N·m");
+        out.table(&heads, rows);
+    }
+
+    /// Adds the forces of the faces on objects.
+    fn write_contacts(&self, out: &mut Report) {
+        let list = &self.found.contacts;
+        let greatest = list.iter().map(|c| c.normal.abs().max(c.along));
+        let (unit, n) = prefix(greatest.fold(0.0, f64::max));
+        let show = |x: f64| figure(x / unit);
+        let stated = |x: Option<f64>| x.map_or_else(|| "not stated".to_owned(), significant);
+        let rows = list.iter().map(|c| {
+            let [normal, along, tilting] = [c.normal, c.along, c.tilting].map(show);
+            let [friction, radius] = [c.friction, c.radius].map(stated);
+            let name = self.joint(c.joint);
+            cells([
+                &name,
+                &touch(c),
+                &normal,
+                &along,
+                &friction,
+                &tilting,
+                &radius,
+            ])
+        });
+        out.table(
+            &format!(
+                "contact |  | normal, {n}N | along the face, {n}N | friction | tilting, {n}N·m | face radius, m"
+            ),
+            rows,
+        );
+        out.line("");
+    }
+
+    /// Names contacts that would have to do what faces cannot.
+    fn write_refuted(&self, out: &mut Report) {
+        let words = |c: &ContactForce| {
+            let (unit, prefix) = prefix(c.normal.abs().max(c.along));
+            let force = |x: f64| format!("{} {prefix}N", significant(x / unit));
+            let limit = |x: Option<f64>| x.map_or_else(String::new, significant);
+            let (normal, along) = (force(c.normal), force(c.along));
+            match c.touch {
+                Touch::Pulls => format!("would pull with {}", force(-c.normal)),
+                Touch::Slips => format!(
+                    "would need friction of {along} under {normal}, more than the coefficient {} gives",
+                    limit(c.friction)
+                ),
+                _ => format!(
+                    "would need its pressure beyond the face's radius of {} m",
+                    limit(c.radius)
+                ),
+            }
+        };
+        let bad = self
+            .found
+            .contacts
+            .iter()
+            .filter(|c| !holds(c))
+            .collect_vec();
+        for c in &bad {
+            out.line(format!(
+                "NOT AS CONTACTS ACT: {} {}",
+                self.joint(c.joint),
+                words(c)
+            ));
+        }
+        if !bad.is_empty() {
+            let way = if self.is_unique() {
+                "no other reactions are in equilibrium, so the object is not held".to_owned()
+            } else {
+                pushing()
+            };
+            out.line(format!("  contacts are taken as joints here; {way}"));
+        }
+    }
+
+    /// Returns which components the choice within the family is about.
+    fn left_open(&self) -> String {
+        let mut alike: Vec<(&[bool; 6], Vec<&str>)> = Vec::new();
+        let joints = self.found.reactions.iter().zip(&self.found.open);
+        for (r, open) in joints.filter(|(_, open)| open.contains(&true)) {
+            match alike.iter_mut().find(|(known, _)| *known == open) {
+                Some((_, joints)) => joints.push(self.joint(r.joint)),
+                None => alike.push((open, vec![self.joint(r.joint)])),
+            }
+        }
+        let each = alike.iter();
+        let each = each
+            .map(|(open, joints)| format!("{} of {}", list(&open_components(open)), list(joints)));
+        let passed = self.couplings().into_iter().zip(&self.found.couplings_open);
+        let passed = passed
+            .filter(|(_, open)| **open)
+            .map(|(c, _)| c.name())
+            .collect_vec();
+        let passed = (!passed.is_empty()).then(|| format!("what {} pass", list(&passed)));
+        format!(
+            "Left open by the self-stresses: {}; all else is the same in the whole family",
+            each.chain(passed).join("; ")
+        )
+    }
+
+    /// Says which reactions these are, and whether numbers decide it.
+    fn write_head(&self, out: &mut Report, pose: &str) {
+        let s = self.found;
+        let among = match s.choice {
+            Uniqueness::Unique => None,
+            Uniqueness::Pushing => Some("those in which contacts only push".to_owned()),
+            Uniqueness::MinimumNorm => {
+                Some(format!("a family with {}", stresses(s.self_stresses.len())))
+            }
+        };
+        let what = among.map_or("the only ones in equilibrium".to_owned(), |among| {
+            let size = figure(s.size);
+            format!("of minimum norm among {among}: Σ |F|² + |M|²/ℓ² least, ℓ = {size} m")
+        });
+        let (name, state) = (&self.of.name, &self.of.states[self.state]);
+        out.line(format!(
+            "{name}, state {state}, {pose}: joint reactions, {what}"
+        ));
+        if let Some(n) = self.exact_self_stresses {
+            out.line(format!(
+                "NOT DECIDED BY NUMBERS: in exact geometry there are {}, and the difference is below what singular values tell from zero; look for points or axes that are nearly alike",
+                stresses(n)
+            ));
+        }
+    }
+
+    /// Says which loads the reactions answer to, if a reader may expect others.
+    fn write_loads(&self, out: &mut Report) {
+        let (m, loads) = (self.of, &self.of.loads);
+        let moving = loads.drive_speeds.iter().any(|s| *s != 0.0);
+        if moving {
+            out.line("Inertia forces of the stated drive speed included\n");
+        }
+        let accelerated = loads.gravity.is_some() || moving;
+        let no_mass = m.links.iter().all(|l| l.mass.is_none()) || !accelerated;
+        if no_mass && !loads.acts_from_outside(self.state) {
+            out.line(no_loads(loads.misalignments.len()) + "\n");
+        }
+    }
+
+    /// Says how well the equations are solved.
+    fn write_equilibrium(&self, out: &mut Report) {
+        let s = self.found;
+        if s.undriven > 0 {
+            let freedoms = plural(s.undriven, "freedom");
+            out.line(format!(
+                "{freedoms} left with the drives held, on which the loads do no work"
+            ));
+        }
+        let (condition, residual) = (figure(s.condition), s.residual);
+        out.line(format!(
+            "Equilibrium: condition {condition}, residual {residual:.0e} of the load"
+        ));
+        if s.nearly_singular() {
+            out.line(format!(
+                "Warning: nearly singular (condition above {NEARLY_SINGULAR:.0e}): small errors of manufacture change these reactions much"
+            ));
+        }
+    }
+
+    /// Adds the self-stresses that may be added, by the joints each loads.
+    fn write_family(&self, out: &mut Report) {
+        let s = self.found;
+        let open = s.self_stresses.len();
+        let push = match s.choice {
+            Uniqueness::Pushing => " with which contacts still push",
+            _ => "",
+        };
+        out.line(format!(
+            "\nRedundant constraints leave these reactions open: any multiples of the {} may be added{push}",
+            stresses(open)
+        ));
+        let both = s.self_stresses.iter().zip(&s.coupling_stresses);
+        for (i, (stress, coupled)) in both.take(STRESSES).enumerate() {
+            let loaded = stress
+                .iter()
+                .filter(|r| r.force_size() > 1e-9 || r.moment_size() > 1e-9 * s.size);
+            let coupled = couplings(self.of, self.state, coupled).into_iter();
+            let coupled = coupled.filter(|c| c.is_loaded(s.size)).map(|c| c.name());
+            let joints = loaded.map(|r| self.joint(r.joint).to_owned());
+            out.line(format!("  {}: {}", i + 1, joints.chain(coupled).join(", ")));
+        }
+        if open > STRESSES {
+            out.line(format!("  and {} more", open - STRESSES));
+        }
+    }
+
+    /// Says which of the family elastic joints choose, or what to state to see it.
+    fn write_elastic(&self, out: &mut Report) {
+        let s = self.found;
+        let (open, misalignments) = (s.self_stresses.len(), self.of.loads.misalignments.len());
+        if let Some(list) = &s.elastic {
+            let askew = match misalignments {
                 0 => "no misalignment".to_owned(),
                 n => plural(n, "misalignment"),
             };
-            writeln!(
-                out,
-                "\nReactions of elastic joints of the stated stiffness, {askew}\n\n{}",
-                joints(list, s.size, width)
-            )?;
-            couplings::elastic(out, s.elastic_couplings.as_deref().unwrap_or_default())
+            out.line(format!(
+                "\nReactions of elastic joints of the stated stiffness, {askew}\n"
+            ));
+            self.write_joints(out, list);
+            let coupled = s.elastic_couplings.as_deref().unwrap_or_default();
+            write_elastic(out, &couplings(self.of, self.state, coupled));
+        } else if open > 0 && s.choice != Uniqueness::Pushing {
+            out.line(
+                "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises.",
+            );
+        } else if open == 0 && misalignments > 0 {
+            out.line(NO_STRAIN);
         }
-        None if open > 0 && s.choice != "pushing" => writeln!(
-            out,
-            "State [workload.stiffness.default] linear and angular, and [[workload.misalignment]], to see which of them arises."
-        ),
-        None if open == 0 && !loads.misalignments.is_empty() => writeln!(out, "{NO_STRAIN}"),
-        None => Ok(()),
     }
 }

@@ -24,7 +24,6 @@ const HEAD: &str = "\
 ";
 
 /// The default costs as TOML.
-#[must_use]
 pub fn toml() -> String {
     let table = CostTable::new(&CostSpec::default());
     let line =

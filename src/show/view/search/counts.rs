@@ -1,19 +1,15 @@
 //! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
-use crate::format::{grouped, plural, plural_of};
-use crate::model::mechanism::Mechanism;
-use crate::score::outcome::Outcome;
 use crate::score::request::List;
+use crate::search::Search;
 use crate::search::check::second_prime::Verdict;
 use crate::search::question::throughout::PoseOnly;
-use crate::view::search::conditions::in_state;
+use crate::view::prelude::*;
 use crate::view::search::{numeric, second_opinion, stopped_early};
-use crate::view::terminal::layout::{fit, table};
 use itertools::Itertools;
 use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 /// Rows of mobilities told at most; JSON and the page have them all.
 const MOBILITIES: usize = 12;
@@ -25,33 +21,30 @@ pub(super) const IDEAS: &str =
 /// Returns the verdict and how it was checked; with `verbose` also which variants are minimal, and the counts by mobility.
 pub(super) fn counts(outcome: &Outcome, width: Option<u16>, verbose: bool) -> String {
     let verbose = verbose || matches!(outcome.request.list, List::Nothing | List::Top(0));
-    let mut out = verdict(outcome, verbose);
-    let lines = minimal(outcome).filter(|_| verbose).into_iter();
-    let lines = lines.chain(numeric::lines(outcome));
-    // Writing to a string cannot fail.
-    for line in lines.chain(second_opinion::lines(outcome)) {
-        let _ = writeln!(out, "  {line}");
-    }
-    // Two primes that agree on rounded digits prove nothing.
-    if let Some(check) = outcome.check.filter(|_| outcome.is_confirmed()) {
-        let _ = match check.verdict {
-            Verdict::Agree => writeln!(out, "  Checked: two runs with different primes agree"),
-            Verdict::Interrupted => writeln!(out, "  Not checked by a second prime: interrupted"),
-        };
-    }
+    let mut out = Report::new(width);
+    write_verdict(&mut out, outcome, verbose);
     let exact = outcome.numeric.is_none();
-    let cut_short = exact.then(|| stopped_early::stopped(outcome)).flatten();
-    for line in cut_short
-        .into_iter()
-        .chain(stopped_early::estimated(outcome))
-        .chain(exact.then(|| stopped_early::more(outcome)).flatten())
-    {
-        let _ = writeln!(out, "  {line}");
-    }
-    if verbose {
-        out += &by_mobility(outcome, width);
-    }
-    fit(&out, width)
+    // Two primes that agree on rounded digits prove nothing.
+    let check = outcome.check.filter(|_| outcome.is_confirmed());
+    let check = check.map(|check| match check.verdict {
+        Verdict::Agree => "Checked: two runs with different primes agree",
+        Verdict::Interrupted => "Not checked by a second prime: interrupted",
+    });
+    let lines = minimal(outcome).filter(|_| verbose).into_iter();
+    let lines = lines
+        .chain(numeric::lines(outcome))
+        .chain(second_opinion::lines(outcome));
+    let lines = lines.chain(check.map(str::to_owned));
+    let lines = lines.chain(exact.then(|| stopped_early::stopped(outcome)).flatten());
+    let lines = lines.chain(stopped_early::estimated(outcome));
+    let lines = lines.chain(exact.then(|| stopped_early::more(outcome)).flatten());
+    lines.for_each(|line| out.line(format!("  {line}")));
+    let table = if verbose {
+        by_mobility(outcome, width)
+    } else {
+        String::new()
+    };
+    out.text() + &fit(&table, width)
 }
 
 /// "σ = 0", or the redundant constraints that are allowed.
@@ -72,8 +65,7 @@ fn keep_motion(mechanism: &Mechanism) -> &'static str {
 }
 
 /// Returns how many variants meet all conditions, and how many have few enough redundant constraints, if counts are asked for.
-fn verdict(outcome: &Outcome, verbose: bool) -> String {
-    let mut out = String::new();
+fn write_verdict(out: &mut Report, outcome: &Outcome, verbose: bool) {
     let least = if outcome.is_counted() {
         ""
     } else {
@@ -113,30 +105,26 @@ fn verdict(outcome: &Outcome, verbose: bool) -> String {
         let listed = &outcome.listed_counts().total;
         stopped_early::number(listed, outcome.is_counted(), estimate)
     };
-    // Writing to a string cannot fail.
     let of = plural_of(&grouped(&size), "variant");
-    let _ = writeln!(out, "{mechanism}: {good} of {of} {all}");
+    out.line(format!("{mechanism}: {good} of {of} {all}"));
     if size == BigUint::from(1u8) {
-        let _ = writeln!(
-            out,
+        out.line(
             "  no joint has an option with more freedoms than it has: list some under [search], such as options = \
              [\"cylindrical\", \"spherical\"]"
         );
     }
     if let Some(line) = in_the_pose(outcome) {
-        let _ = writeln!(out, "  {line}");
+        out.line(format!("  {line}"));
     }
     if !more.is_empty() && (verbose || outcome.listed_counts().total.is_zero()) {
         let determinate = match &outcome.numeric {
             Some(found) => numeric::from_to(&found.determinate),
             None => determinate(outcome),
         };
-        let _ = writeln!(
-            out,
+        out.line(format!(
             "  {determinate} with {condition} before the other conditions"
-        );
+        ));
     }
-    out
 }
 
 /// Where variants keep the motion, so far as that is known.
@@ -157,8 +145,9 @@ fn in_the_pose(outcome: &Outcome) -> Option<String> {
             let lost = here - &lasting.total;
             let lose = if lost.is_one() { "loses" } else { "lose" };
             let (here, lost) = (grouped(here), grouped(lost));
+            let all = flag("pose-only", "");
             Some(format!(
-                "{here} in the drawn pose; {lost} of these {lose} the motion in other poses (--pose-only lists them too)"
+                "{here} in the drawn pose; {lost} of these {lose} the motion in other poses ({all} lists them too)"
             ))
         }
         Err(
@@ -242,13 +231,13 @@ fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
         (Some(least), Some(most)) => Some(row(format!("rest, {least} to {most}"), &rest)),
         _ => None,
     };
-    let rows = each.chain(folded).chain(left_out).collect();
-    let condition = condition(outcome);
-    let heads: &[&str] = match lasting {
-        Some(_) => &["W", &condition, "in the drawn pose", "throughout"],
-        None => &["W", &condition, "admissible"],
+    let rows = each.chain(folded).chain(left_out);
+    let admissible = match lasting {
+        Some(_) => "in the drawn pose | throughout",
+        None => "admissible",
     };
-    format!("\n{}\n", table(heads, rows, width))
+    let heads = format!("W | {} | {admissible}", condition(outcome));
+    format!("\n{}\n", table(&heads, rows, width))
 }
 
 /// How many of the variants that are listed are minimal, and what the others are, said once; `None` where that was not counted.
@@ -270,4 +259,33 @@ fn minimal(outcome: &Outcome) -> Option<String> {
     Some(format!(
         "{all} minimal; the other {rest} only add {idle} to one of these"
     ))
+}
+
+/// "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
+pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
+    let Some(s) = search.conditions.state else {
+        return Vec::new();
+    };
+    let m = &search.mechanism;
+    let (hold, have) = if one {
+        ("holds", "has")
+    } else {
+        ("hold", "have")
+    };
+    let state = format!("in state {}", m.states[s.state]);
+    let held = search.held().map(|l| m.links[l].id.as_str()).join(", ");
+    let limits = [
+        s.max_external.map(|n| format!("external σ ≤ {n}")),
+        s.max_harmful.map(|n| format!("harmful ≤ {n}")),
+    ];
+    let limits = limits.into_iter().flatten().join(", ");
+    match (held.is_empty(), limits.is_empty()) {
+        (true, true) => vec![format!("{have} any external σ {state}")],
+        (true, false) => vec![format!("{have} {limits} {state}")],
+        (false, true) => vec![format!("{hold} {held} {state}")],
+        (false, false) => vec![
+            format!("{hold} {held} {state}"),
+            format!("{have} {limits} in it"),
+        ],
+    }
 }

@@ -1,19 +1,15 @@
 //! The variants of a search as CSV, one a line, a column for each joint that has a choice.
 
-use crate::format::cost;
 use crate::format::csv::encoded;
-use crate::model::mechanism::JointId;
 use crate::model::ranking::Term;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::variant::Variant;
 use crate::search::Search;
 use crate::search::check::other_poses::OverStroke;
 use crate::search::diagram::Stop;
 use crate::search::question::space::choice_name;
-use crate::view::search::numeric;
-use crate::view::search::second_opinion;
-use itertools::Itertools;
+use crate::view::prelude::*;
+use crate::view::search::{numeric, second_opinion};
 use std::io::{self, Write};
 use std::iter;
 
@@ -99,7 +95,7 @@ fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> 
     writeln!(out, "{}", heads.into_iter().map(encoded).join(","))?;
     let mut lines = Lines {
         text: String::new(),
-        chosen: side_by_side(search, &joints),
+        chosen: cells_of(search, &joints),
         cost: (0, cost(0)),
         digits: itoa::Buffer::new(),
     };
@@ -116,62 +112,21 @@ fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> 
 /// Bytes of lines that are written at once.
 const ROOM: usize = 1 << 16;
 
-/// Some columns of choices side by side, and their text for each combination that was come to.
-struct SideBySide {
-    /// For each column the variable, and what its choices are called.
-    columns: Vec<(usize, Vec<String>)>,
-    /// By the number that the choices make; empty before it is asked for.
-    texts: Vec<String>,
-}
-
-/// Combinations of choices whose texts are kept, in columns side by side.
-const COMBINATIONS: usize = 4096;
-
-impl SideBySide {
-    /// ",a,b" for those chosen of the variables.
-    fn text(&mut self, choices: &[usize]) -> &str {
-        let number =
-            |n, (variable, cells): &(usize, Vec<String>)| n * cells.len() + choices[*variable];
-        let text = &mut self.texts[self.columns.iter().fold(0, number)];
-        if text.is_empty() {
-            for (variable, cells) in &self.columns {
-                text.push(',');
-                text.push_str(&cells[choices[*variable]]);
-            }
-        }
-        text
-    }
-}
-
-/// The columns of joints, in groups whose combinations are few.
-fn side_by_side(search: &Search, joints: &[(usize, JointId)]) -> Vec<SideBySide> {
-    let mut out: Vec<SideBySide> = Vec::new();
-    for &(variable, j) in joints {
+/// Returns the variable of each column of joints, and the cells of its choices with a comma in front.
+fn cells_of(search: &Search, joints: &[(usize, JointId)]) -> Vec<(usize, Vec<String>)> {
+    let of = |&(variable, j): &(usize, JointId)| {
         let choices = search.space.variables[variable].choices.iter();
-        let cells: Vec<String> = choices
-            .map(|c| encoded(&choice_name(&search.mechanism, j, c)))
-            .collect();
-        match out.last_mut() {
-            Some(group) if group.texts.len() * cells.len() <= COMBINATIONS => {
-                group
-                    .texts
-                    .resize(group.texts.len() * cells.len(), String::new());
-                group.columns.push((variable, cells));
-            }
-            _ => out.push(SideBySide {
-                texts: vec![String::new(); cells.len()],
-                columns: vec![(variable, cells)],
-            }),
-        }
-    }
-    out
+        let name = |c| encoded(&choice_name(&search.mechanism, j, c));
+        (variable, choices.map(|c| format!(",{}", name(c))).collect())
+    };
+    joints.iter().map(of).collect()
 }
 
 /// The lines of some variants, one after another.
 struct Lines {
     text: String,
-    /// Most of a line is what was chosen, the same few words again and again.
-    chosen: Vec<SideBySide>,
+    /// The cells of all choices: most of a line is the same few words again and again.
+    chosen: Vec<(usize, Vec<String>)>,
     /// The last cost, which is often that of the next variant, too.
     cost: (i64, String),
     digits: itoa::Buffer,
@@ -190,8 +145,8 @@ impl Lines {
         self.some(v.external_redundant());
         self.number(v.change_count());
         let choices = &v.assignment().choices;
-        for columns in &mut self.chosen {
-            self.text.push_str(columns.text(choices));
+        for (variable, cells) in &self.chosen {
+            self.text.push_str(&cells[choices[*variable]]);
         }
         let opinion = v.second().opinion();
         self.some(opinion.map(|o| format!("{:e}", o.conditioning)));

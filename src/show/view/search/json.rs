@@ -1,15 +1,25 @@
-//! A search as JSON, and its variants as JSON lines, written as they come.
+//! A search as JSON, and its variants as JSON lines, written as they come. The keys are a stable contract, in this order; counts are
+//! strings, since they outgrow 2^53.
 
+use crate::rank::rounded::verdict::RankVerdict;
 use crate::score::outcome::Outcome;
 use crate::score::outcome::listing::Variants;
 use crate::score::outcome::remarks::Remarks;
 use crate::score::outcome::variant::Variant;
 use crate::score::outcome::why::Whys;
-use crate::search::diagram::Stop;
-use crate::view;
-use crate::view::search::data;
+use crate::score::request::prepare::LooksRounded;
+use crate::search::answer::why_none::Relaxation;
+use crate::search::diagram::{Diagram, Stop};
+use crate::view::prelude::*;
+use crate::view::pretty;
+use crate::view::search::second_opinion::certainty;
+use crate::view::search::stopped_early::estimate;
 use crate::view::search::variant::VariantData;
 use crate::view::search::why::Teller;
+use crate::view::search::{numeric, ranking, second_opinion, variant};
+use num_bigint::BigUint;
+use num_traits::Zero;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 /// Tells each variant of a list with its data until that fails; ideas with why they help.
@@ -50,7 +60,7 @@ pub fn write(
     seconds: Option<&dyn Fn() -> f64>,
 ) -> io::Result<()> {
     // Variants stream: the closing brace of the header waits for them.
-    let text = view::pretty(&data::search(outcome))?;
+    let text = pretty(&search(outcome))?;
     let open = text.strip_suffix("\n}").unwrap_or(&text);
     write!(out, "{open},\n  \"variants\": [")?;
     each(outcome, variants.by_ref(), |v, data| -> io::Result<()> {
@@ -59,7 +69,7 @@ pub fn write(
         Ok(serde_json::to_writer(&mut *out, data)?)
     })?;
     let seconds = seconds.map(|s| s());
-    let tail = data::tail(outcome, &variants, remarks, seconds);
+    let tail = tail(outcome, &variants, remarks, seconds);
     let text = serde_json::to_string_pretty(&tail)?;
     let rest = text.strip_prefix("{\n").unwrap_or(&text);
     writeln!(out, "\n  ],\n{rest}")
@@ -85,8 +95,205 @@ pub fn write_lines(
         writeln!(out)?;
     }
     if variants.stop() != Stop::Exhausted || outcome.numeric.is_some() || !outcome.is_confirmed() {
-        serde_json::to_writer(&mut *out, &data::end(outcome, &variants))?;
+        serde_json::to_writer(&mut *out, &end(outcome, &variants))?;
         writeln!(out)?;
     }
     Ok(())
+}
+
+/// Counts by a property.
+fn by<K: ToString>(counts: &BTreeMap<K, BigUint>) -> Value {
+    let text = |(k, n): (&K, &BigUint)| (k.to_string(), n.to_string());
+    counts.iter().map(text).collect()
+}
+
+/// Counts by W, each by number of changes.
+fn by_both(counts: &BTreeMap<(i64, u32), BigUint>) -> Value {
+    let mut nested: BTreeMap<i64, BTreeMap<u32, String>> = BTreeMap::new();
+    for ((w, c), n) in counts {
+        nested.entry(*w).or_default().insert(*c, n.to_string());
+    }
+    json!(nested)
+}
+
+/// Counts by cost, the cheapest first.
+fn by_cost(counts: &BTreeMap<i64, BigUint>) -> Value {
+    let text = |(c, n): (&i64, &BigUint)| (cost(*c), n.to_string());
+    counts.iter().map(text).collect()
+}
+
+/// The size of a diagram.
+fn size(diagram: Option<&Diagram>) -> Value {
+    json!({
+        "largest_layer": diagram.map(|d| d.largest_layer),
+        "nodes": diagram.map(|d| d.nodes),
+    })
+}
+
+/// Returns everything but the variants.
+pub fn search(outcome: &Outcome) -> Value {
+    let (determinate, admissible) = (&outcome.determinate, &outcome.admissible);
+    let diagrams = outcome.diagrams.as_ref();
+    let [first, second] = [
+        diagrams.map(|d| &d.determinate),
+        diagrams.map(|d| &d.admissible),
+    ];
+    let layer = |d: Option<&Diagram>| d.map(|d| d.largest_layer);
+    let estimates = outcome.estimates().map(|e| e.map(estimate));
+    let costs = outcome.admissible_by_cost();
+    let left_out = [
+        (determinate.only_total || admissible.only_total).then_some("counts by kind"),
+        costs.is_none().then_some("counts by cost"),
+    ];
+    let mechanism = &outcome.search.mechanism;
+    let lasting = outcome.lasting.as_ref().ok();
+    json!({
+        "mechanism": mechanism.name,
+        "space": outcome.search.size().to_string(),
+        "determinate": determinate.to_string(),
+        "determinate_exact": outcome.is_determinate_exact(),
+        "determinate_estimate": estimates[0],
+        "by_mobility": by(&determinate.by_mobility),
+        "by_mobility_and_changes": by_both(&determinate.by_mobility_and_changes),
+        "by_redundant": by(&determinate.by_redundant),
+        "by_changes": by(&determinate.by_changes),
+        "by_freedoms": by(&determinate.by_freedoms),
+        "admissible": admissible.to_string(),
+        "admissible_estimate": estimates[1],
+        "admissible_by_mobility": by(&admissible.by_mobility),
+        "admissible_by_mobility_and_changes": by_both(&admissible.by_mobility_and_changes),
+        "admissible_by_redundant": by(&admissible.by_redundant),
+        "admissible_by_changes": by(&admissible.by_changes),
+        "admissible_by_freedoms": by(&admissible.by_freedoms),
+        "admissible_by_cost": by_cost(&costs.unwrap_or_default()),
+        // Those that keep the motion throughout the motion of the mechanism as built are the ones listed.
+        "lasting": lasting.map(ToString::to_string),
+        "lasting_by_mobility": lasting.map(|l| by(&l.by_mobility)),
+        "lasting_by_cost": outcome.lasting_by_cost().as_ref().map(by_cost),
+        "pose_only": outcome.lasting.as_ref().err().map(ToString::to_string),
+        "minimal": outcome.minimal().map(|n| n.to_string()),
+        "largest_layer": layer(first).max(layer(second)),
+        "nodes": first.zip(second).map(|(a, b)| a.nodes + b.nodes),
+        // A list of one number.
+        "rows_per_contour": diagrams.map(|d| [d.rows_per_contour]),
+        "determinate_diagram": size(first),
+        "admissible_diagram": size(second),
+        "stop": outcome.stop.word(),
+        "check": outcome.check.map(|c| json!({
+            "primes": c.primes.map(|p| p.to_string()),
+            // Two primes that agree on rounded digits prove nothing.
+            "agree": c.agree().filter(|_| outcome.is_confirmed()),
+        })),
+        "measured": outcome.measured.as_ref().map(measured),
+        "poses": outcome.stroke.as_ref().map(|s| json!({ "asked": s.asked, "reached": s.reached() })),
+        "ranking": outcome.ranking.as_ref().map(|p| ranking::data(mechanism, p)),
+        "exact": outcome.is_exact() && mechanism.assumed.is_empty(),
+        "assumptions": mechanism.assumed,
+        // How sure counts are that are not exact, and not cut short.
+        "certainty": certainty(outcome),
+        "numeric": outcome.numeric.as_ref().map(numeric::data),
+        "second_opinion": second_opinion::data(outcome),
+        // Counts that would take more than the memory allowed.
+        "left_out": left_out.into_iter().flatten().collect::<Vec<_>>(),
+    })
+}
+
+/// What singular values say of coordinates that look rounded; `meant` is the mechanism searched: "as written", "snapped", "near",
+/// "undecided".
+fn measured((why, verdicts): &LooksRounded) -> Value {
+    let figures = |(mobility, redundant): (usize, usize)| json!({ "mobility": mobility, "redundant": redundant });
+    let state = |v: &RankVerdict| {
+        json!({
+            "state": v.state,
+            "exact": figures(v.figures(v.as_written)),
+            "svd": figures(v.figures(v.at_least())),
+            "smallest_kept": v.numeric.unwrap_or_default().kept,
+            "largest_dropped": v.numeric.unwrap_or_default().dropped,
+            "meant": v.word(),
+        })
+    };
+    json!({
+        "coordinates": why.coordinates,
+        "example": { "place": why.place, "value": why.value },
+        "tolerance": verdicts.iter().fold(0.0, |a: f64, v| a.max(v.tolerance)),
+        "agree": verdicts.iter().all(RankVerdict::agrees),
+        "states": verdicts.iter().map(state).collect::<Vec<_>>(),
+    })
+}
+
+/// Returns what follows variants that were given, as far as it went; `seconds` is how long all of it took. Where there is no variant it
+/// says what easing would leave, and what stands in the way of all.
+pub(crate) fn tail(
+    outcome: &Outcome,
+    variants: &Variants<'_>,
+    remarks: &Remarks,
+    seconds: Option<f64>,
+) -> Value {
+    let (summary, stop) = (variants.summary(), variants.cut_short());
+    let mut out = json!({
+        "variants_complete": stop.is_none(),
+        "variants_stop": stop.map(Stop::word),
+        // How many, from the first on, are proven to be the cheapest, where the search ended early.
+        "variants_proven": summary.proven,
+        "variants_checked": summary.checked,
+        "variants_disagreeing": summary.disagreeing,
+        "variants_check_failed": summary.failed,
+        "variants_posed": summary.posed,
+        "variants_lucky": summary.lucky,
+    });
+    if outcome.listed_counts().total.is_zero() {
+        let why = &remarks.hopeless;
+        let named = |joints: &[JointId]| -> Vec<&str> {
+            let ids = joints
+                .iter()
+                .map(|&j| outcome.search.mechanism.joints[j].id.as_str());
+            ids.collect()
+        };
+        let eased = |(how, n): &(Relaxation, BigUint)| {
+            let (condition, to) = condition(*how);
+            let to = to.map_or(json!(true), Value::from);
+            json!({ "condition": condition, "to": to, "admissible": n.to_string() })
+        };
+        out["relaxations"] = remarks.eased.iter().map(eased).collect();
+        let offers = remarks.offers(&outcome.request).iter();
+        out["offers"] = offers
+            .map(|o| json!({ "joint": o.joint, "options": o.names }))
+            .collect();
+        out["least_redundant"] = json!(why.least_redundant);
+        out["unchanged"] = json!(named(&why.unchanged));
+        out["frozen"] = json!(named(&why.frozen));
+    }
+    out["symmetric"] = json!(remarks.symmetric.as_ref().map(variant::symmetric_data));
+    if let Some(seconds) = seconds {
+        out["seconds"] = json!(seconds);
+    }
+    out
+}
+
+/// Returns the last of some JSON lines, where the variants are not all that was asked for.
+pub(crate) fn end(outcome: &Outcome, variants: &Variants<'_>) -> Value {
+    json!({
+        "stop": variants.stop().word(),
+        "given": variants.summary().given,
+        "proven": variants.summary().proven.unwrap_or(0),
+        "admissible": outcome.admissible.to_string(),
+        "admissible_exact": outcome.is_exact() && outcome.search.mechanism.assumed.is_empty(),
+        "certainty": certainty(outcome),
+        "numeric": outcome.numeric.as_ref().map(numeric::data),
+    })
+}
+
+/// The flag of a condition that was eased, and the number it is eased to.
+fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
+    match how {
+        Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),
+        Relaxation::External(n) => ("max-external", Some(i64::from(n))),
+        Relaxation::Harmful(n) => ("max-harmful", Some(i64::from(n))),
+        Relaxation::Mobility(n) => ("max-mobility", Some(n)),
+        Relaxation::Changes(n) => ("max-changes", Some(i64::from(n))),
+        Relaxation::OutputChange => ("allow-output-change", None),
+        Relaxation::FreeDrives => ("drives", None),
+        Relaxation::LooseObject => ("allow-loose-object", None),
+        Relaxation::PoseOnly => ("pose-only", None),
+    }
 }

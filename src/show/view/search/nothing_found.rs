@@ -1,16 +1,12 @@
 //! If nothing is found: the reasons in words, and the requests that find something.
 
-use crate::format::{grouped, list, plural_of};
-use crate::model::mechanism::{JointId, Mechanism};
-use crate::score::outcome::Outcome;
 use crate::score::outcome::remarks::{Remarks, eased};
 use crate::score::request::Request;
 use crate::search::answer::why_none::{Hopeless, Relaxation};
+use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, flags};
-use itertools::Itertools;
 
 /// Returns why no variant can be found, a sentence for each reason; empty if some may be.
-#[must_use]
 pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
     let named = |joints: &[JointId]| {
         let ids = joints.iter().map(|&j| m.joints[j].id.as_str());
@@ -46,7 +42,6 @@ pub fn hopeless(m: &Mechanism, why: &Hopeless) -> Vec<String> {
 }
 
 /// Returns the requests that find something if one found nothing, each with its result in words.
-#[must_use]
 pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
     let gives = |how, n: &_| {
         let n = plural_of(&grouped(n), "variant");
@@ -77,7 +72,6 @@ pub fn wider(outcome: &Outcome, remarks: &Remarks) -> Vec<(Request, String)> {
 }
 
 /// Returns the same as commands, with a hint at more options if no joint types are named.
-#[must_use]
 pub fn wider_commands(
     outcome: &Outcome,
     remarks: &Remarks,
@@ -94,7 +88,11 @@ pub fn wider_commands(
         .any(|(how, _)| *how == Relaxation::PoseOnly);
     let hint = (!in_pose && remarks.offered.is_none()).then(|| NextCommand {
         command: "Offer more options under [search], or at the joints".to_owned(),
-        gives: "the search chooses from those in the file, and from joint types named in --options and --allow".to_owned(),
+        gives: format!(
+            "the search chooses from those in the file, and from joint types named in {} and {}",
+            flag("options", ""),
+            flag("allow", "")
+        ),
     });
     steps.chain(hint).collect()
 }

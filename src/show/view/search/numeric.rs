@@ -1,18 +1,14 @@
 //! A search by singular values: counts between what is sure and what may be, as text and as data.
 
-use crate::format::grouped;
-use crate::score::outcome::Outcome;
 use crate::search::answer::counts::Counts;
 use crate::search::at_tolerance::{AtTolerance, Bracket, Sampled, Share};
-use crate::view::span;
+use crate::view::prelude::*;
 use num_bigint::BigUint;
 use num_traits::Zero;
-use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// "12", or "12 to 15".
-#[must_use]
-pub(in crate::view) fn from_to(bracket: &Bracket) -> String {
+pub(crate) fn from_to(bracket: &Bracket) -> String {
     let from = &bracket.sure.total;
     if bracket.is_narrow() {
         return grouped(from);
@@ -21,7 +17,6 @@ pub(in crate::view) fn from_to(bracket: &Bracket) -> String {
 }
 
 /// How many admissible variants there are: "12", or "12 to 15".
-#[must_use]
 pub(crate) fn admissible(outcome: &Outcome) -> String {
     match &outcome.numeric {
         Some(found) => from_to(&found.admissible),
@@ -30,22 +25,20 @@ pub(crate) fn admissible(outcome: &Outcome) -> String {
 }
 
 /// The counts by mobility as a person reads them: "12", or "12 to 15".
-#[must_use]
-pub(in crate::view) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
+pub(crate) fn by_mobility(bracket: &Bracket, of: &[i64]) -> String {
     let sum = |c: &Counts| -> BigUint { of.iter().filter_map(|w| c.by_mobility.get(w)).sum() };
     let (sure, doubtful) = (sum(&bracket.sure), sum(&bracket.doubtful));
     span(grouped(&sure), grouped(&sure + doubtful))
 }
 
 /// The mobilities that some variant has or may have.
-pub(in crate::view) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
+pub(crate) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
     let brackets = [&found.determinate, &found.admissible];
     let counts = brackets.into_iter().flat_map(|b| [&b.sure, &b.doubtful]);
     counts.flat_map(|c| c.by_mobility.keys().copied()).collect()
 }
 
 /// What is said of a search by singular values, a sentence a line; none of an exact one.
-#[must_use]
 pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let Some(found) = &outcome.numeric else {
         return Vec::new();
@@ -88,9 +81,9 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
         )
     };
     let mut out = vec![format!(
-        "Estimated from {} variants drawn at random (--seed {}), with 95 % confidence: {}, {}",
+        "Estimated from {} variants drawn at random ({}), with 95 % confidence: {}, {}",
         grouped(s.drawn),
-        s.seed,
+        flag("seed", s.seed),
         said(s.admissible, "admissible"),
         said(s.determinate, "determinate")
     )];
@@ -108,7 +101,7 @@ fn sampled(s: &Sampled, outcome: &Outcome) -> Vec<String> {
 }
 
 /// Returns a search by singular values as data.
-pub(in crate::view) fn data(found: &AtTolerance) -> Value {
+pub(crate) fn data(found: &AtTolerance) -> Value {
     let bracket = |from: &BigUint, to: &BigUint, doubtful: &BigUint| json!({ "from": from.to_string(), "to": to.to_string(), "doubtful": doubtful.to_string() });
     let whole = |b: &Bracket| bracket(&b.sure.total, &b.most, &b.doubtful.total);
     let of = &found.admissible;

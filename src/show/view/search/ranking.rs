@@ -1,19 +1,14 @@
 //! A ranking in words and as data.
 
-use crate::format::{cost, grouped, plural, significant};
-use crate::model::mechanism::Mechanism;
 use crate::model::ranking::{Order, Term};
 use crate::score::evaluation::load_cases::Gripped;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
-use crate::view::joined;
-use itertools::Itertools;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 
 /// Reasons told at most.
 const REASONS: usize = 10;
 
 /// What variants are ranked by, for the head of a list.
-#[must_use]
 pub(crate) fn head(p: &RankedPool) -> String {
     let terms = match p.ranking.order {
         Order::Weighted => p
@@ -64,7 +59,6 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
 }
 
 /// What a list of ranked variants rests on, a line each.
-#[must_use]
 pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let n = |x: usize| grouped(x);
     let poses = match p.poses {
@@ -94,7 +88,8 @@ pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
         ));
     }
     if !p.proven {
-        out.push(format!("--pool widens the view (now {})", n(p.pool)));
+        let pool = flag("pool", "");
+        out.push(format!("{pool} widens the view (now {})", n(p.pool)));
     }
     if p.ranking
         .terms
@@ -132,7 +127,6 @@ pub(crate) fn reasons<'a>(
 }
 
 /// Heads of the columns of a list.
-#[must_use]
 pub(crate) fn columns(p: &RankedPool) -> Vec<&'static str> {
     let terms = p.ranking.terms.iter();
     let mut out: Vec<&str> = terms.filter_map(|(t, _)| t.heading()).collect();
@@ -145,7 +139,6 @@ pub(crate) fn columns(p: &RankedPool) -> Vec<&'static str> {
 }
 
 /// The cells of those columns.
-#[must_use]
 pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     let terms = p.ranking.terms.iter().map(|(t, _)| *t);
     let mut out: Vec<String> = terms
@@ -161,7 +154,6 @@ pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
 }
 
 /// Returns the ranking as data. What is missing to a proof are sums, a cost, and a count as text, since it may be large.
-#[must_use]
 pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
     let grip =
         |g: &Gripped| json!({ "state": m.states[g.state], "held": g.held, "not_held": g.lost });
@@ -188,7 +180,6 @@ pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
 
 /// Returns a ranked variant's own, with the reason of its place: each term's figure (the error in m), what the most loaded joints bear
 /// (forces in N, moments in N·m), place by cost, sum, front and reason.
-#[must_use]
 pub(crate) fn scores(m: &Mechanism, r: &Ranked, reason: Option<String>) -> Value {
     let mut out = json!({});
     for term in Term::ALL {

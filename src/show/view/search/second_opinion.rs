@@ -1,16 +1,14 @@
 //! What singular values of the coordinates in a file say of the counts of a search, as text and as data.
 
-use crate::format::grouped;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::variant::{changes, in_words};
 use crate::search::answer::k_best::Assignment;
 use crate::search::answer::keys::Key;
 use crate::search::check::second_opinion::{Contradiction, SecondOpinion};
-use crate::view::{AS_READ, span, with_assumptions};
-use serde_json::{Value, json};
+use crate::view::prelude::*;
+use crate::view::{AS_READ, with_assumptions};
 
 /// How sure counts are that are not exact though no budget cut them short.
-pub(in crate::view) fn certainty(outcome: &Outcome) -> Option<&'static str> {
+pub(crate) fn certainty(outcome: &Outcome) -> Option<&'static str> {
     if !outcome.search.mechanism.assumed.is_empty() {
         return Some(AS_READ);
     }
@@ -55,7 +53,6 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
 }
 
 /// Why counts are not exact though everything was looked at, a sentence a line; nothing where they are.
-#[must_use]
 pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     let read = with_assumptions(&outcome.search.mechanism);
     let mut out: Vec<String> = read
@@ -103,7 +100,6 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
 }
 
 /// What the second opinion is, a sentence a line; nothing where none was needed.
-#[must_use]
 pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let mut out = against(outcome);
     if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {
@@ -131,7 +127,7 @@ fn agreed(said: &SecondOpinion) -> String {
 
 /// Returns the second opinion as data; `scenes` are the least and the most (determinate, admissible) of those that the digits do not
 /// rule out, where they differ.
-pub(in crate::view) fn data(outcome: &Outcome) -> Option<Value> {
+pub(crate) fn data(outcome: &Outcome) -> Option<Value> {
     let said = outcome.second.as_ref()?;
     let contradiction = said.contradiction.as_ref().map(|c| {
         let [least, most] = c.numeric;

@@ -1,19 +1,16 @@
 //! A search that ended before everything was looked at: what is known all the same.
 
-use crate::format::grouped;
-use crate::score::outcome::Outcome;
 use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::singular_values::Summary;
 use crate::search::diagram::Stop;
+use crate::view::prelude::*;
 use num_bigint::BigUint;
-use serde_json::{Value, json};
 
 /// Why a search ended early and what its counts and its list are; nothing of one that did not.
-#[must_use]
 pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
     let why = match outcome.stop {
         Stop::Exhausted => return None,
-        Stop::NotCounted => "Not counted (--no-count)".to_owned(),
+        Stop::NotCounted => format!("Not counted ({})", flag("no-count", "")),
         stop => format!("Stopped early ({})", stop.word()),
     };
     // What is proven of a list is told after it.
@@ -26,7 +23,6 @@ pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
 
 /// A number of variants as it is told: itself where it is exact, else at least that many, and at most how many and about how many where
 /// that is known.
-#[must_use]
 pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
     let own = grouped(counted);
     match estimate {
@@ -41,7 +37,6 @@ pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>
 }
 
 /// How numbers of variants are known that are not counted.
-#[must_use]
 pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     let [determinate, admissible] = outcome.estimates();
     let said = |e: &Estimate, what| {
@@ -58,31 +53,30 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     let how = admissible.or(determinate)?;
     let parts: Vec<String> = first.into_iter().chain(second).collect();
     Some(format!(
-        "Estimated, not counted, with 95 % confidence: {} (--seed {})",
+        "Estimated, not counted, with 95 % confidence: {} ({})",
         parts.join(", "),
-        how.seed
+        flag("seed", how.seed)
     ))
 }
 
 /// What a larger bound would cost, where one ended the search: nodes take time and memory in proportion.
-#[must_use]
 pub(crate) fn more(outcome: &Outcome) -> Option<String> {
     match outcome.stop {
         Stop::NodeBudget => {
-            let nodes = outcome.request.nodes.saturating_mul(10);
+            let nodes = flag("nodes", outcome.request.nodes.saturating_mul(10));
             Some(format!(
-                "With --nodes {nodes} more is counted, in about ten times the time and memory"
+                "With {nodes} more is counted, in about ten times the time and memory"
             ))
         }
-        Stop::Memory => Some(
-            "More is counted where there is more memory (--memory), not with more nodes".to_owned(),
-        ),
+        Stop::Memory => Some(format!(
+            "More is counted where there is more memory ({}), not with more nodes",
+            flag("memory", "")
+        )),
         Stop::Exhausted | Stop::Interrupted | Stop::NotCounted => None,
     }
 }
 
 /// How much of a list by cost is proven, though the search ended early.
-#[must_use]
 pub(crate) fn proven(summary: &Summary) -> Option<String> {
     match summary.proven? {
         0 => None,
@@ -94,7 +88,7 @@ pub(crate) fn proven(summary: &Summary) -> Option<String> {
 }
 
 /// Returns an estimate as data; `between` is the interval with a confidence of 95 %.
-pub(in crate::view) fn estimate(e: &Estimate) -> Value {
+pub(crate) fn estimate(e: &Estimate) -> Value {
     let Drawn { of, found } = e.drawn;
     json!({
         "mean": e.mean,

@@ -1,17 +1,14 @@
 //! A variant as data, by the same contract as the search it is of, and the cheapest symmetric redesigns for people and as data.
 
-use crate::format::cost;
-use crate::model::mechanism::Mechanism;
 use crate::redundancy::contour_shares::ContourShare;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::symmetric::{SymmetricBest, SymmetricRedesign};
 use crate::score::outcome::variant::{Change, Variant, changes, in_words};
 use crate::search::Search;
 use crate::search::answer::freedom_patterns;
 use crate::search::check::other_poses::{Figures, OverStroke};
+use crate::view::prelude::*;
 use crate::view::search::ranking;
 use serde::ser::{Serialize, SerializeMap, Serializer};
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// One variant of an outcome, written key by key, since there may be millions.
@@ -78,14 +75,6 @@ fn other_poses(s: &OverStroke) -> Value {
     json!({ "poses": s.poses, "other": s.other.map(other) })
 }
 
-/// A joint that another takes the place of.
-#[derive(serde::Serialize)]
-struct ChangeData<'a> {
-    joint: &'a str,
-    from: String,
-    to: String,
-}
-
 /// Returns a cost given in thousandths.
 #[allow(clippy::cast_precision_loss, reason = "costs are small")]
 pub(crate) fn price(milli: i64) -> Value {
@@ -96,16 +85,14 @@ pub(crate) fn price(milli: i64) -> Value {
 }
 
 /// Returns changes of a mechanism as data.
-fn changed(m: &Mechanism, changes: Vec<Change>) -> Vec<ChangeData<'_>> {
-    let one = |Change { joint, from, to }| {
-        let joint = &m.joints[joint].id;
-        ChangeData { joint, from, to }
-    };
+fn changed(m: &Mechanism, changes: Vec<Change>) -> Value {
+    let one =
+        |Change { joint, from, to }| json!({ "joint": m.joints[joint].id, "from": from, "to": to });
     changes.into_iter().map(one).collect()
 }
 
 /// Returns a line for each number of redundant constraints left, under a heading.
-pub(in crate::view) fn symmetric_text(found: &SymmetricBest) -> String {
+pub(crate) fn symmetric_text(found: &SymmetricBest) -> String {
     let SymmetricBest { best, odd } = found;
     let mut out = String::from("\n  the cheapest symmetric redesign for each σ left:\n");
     // Writing to a string cannot fail.
@@ -147,7 +134,7 @@ fn symmetry(search: &Search) -> &'static str {
 }
 
 /// Returns the cheapest symmetric redesigns as data.
-pub(in crate::view) fn symmetric_data(found: &SymmetricBest) -> Value {
+pub(crate) fn symmetric_data(found: &SymmetricBest) -> Value {
     let one = |one: &SymmetricRedesign| {
         let SymmetricRedesign {
             left,

@@ -1,14 +1,11 @@
 //! Why ideas help, in words of the shop, and as data.
 
 use crate::format::brief;
-use crate::model::mechanism::{JointId, Mechanism};
 use crate::score::evaluation::terms::Peak;
-use crate::score::outcome::Outcome;
 use crate::score::outcome::why::{LetGo, Removed, SIDE_LOAD, Why, Whys};
 use crate::search::answer::k_best::Assignment;
 use crate::terms::PairWords;
-use itertools::Itertools;
-use serde_json::{Value, json};
+use crate::view::prelude::*;
 use std::collections::BTreeMap;
 
 /// Ideas that a text says why of: the first. Data have all.
@@ -17,7 +14,7 @@ pub(super) const TOLD: usize = 3;
 const RESIDUAL: f64 = 1e-9;
 
 /// What says why ideas help.
-pub(in crate::view) struct Teller<'w> {
+pub(crate) struct Teller<'w> {
     m: &'w Mechanism,
     words: BTreeMap<String, PairWords>,
     /// What presses: "file", or the default side load in words.
@@ -26,7 +23,7 @@ pub(in crate::view) struct Teller<'w> {
 
 impl<'w> Teller<'w> {
     /// Returns what says so of the ideas of a search.
-    pub(in crate::view) fn new(outcome: &'w Outcome, whys: &Whys<'_>) -> Teller<'w> {
+    pub(crate) fn new(outcome: &'w Outcome, whys: &Whys<'_>) -> Teller<'w> {
         let under = if whys.is_side_load() {
             format!("{SIDE_LOAD} N on each output, along its hinge")
         } else {
@@ -40,7 +37,7 @@ impl<'w> Teller<'w> {
     }
 
     /// Returns why an idea helps as data: a row for each change, and the contours that had redundant constraints.
-    pub(in crate::view) fn data(&self, w: &Why) -> Value {
+    pub(crate) fn data(&self, w: &Why) -> Value {
         let lets = |l: &LetGo| {
             json!({
                 "joint": self.joint(l.joint),
@@ -160,7 +157,7 @@ fn motions(l: &LetGo) -> String {
 }
 
 /// The first ideas with what each lets go, its hardware, what it removes, what stays, and what joints bear.
-pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
+pub(crate) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
     let mut out = String::new();
     let first = &ideas[..ideas.len().min(TOLD)];
     for (i, rows) in told(outcome, first).into_iter().enumerate() {
@@ -175,7 +172,6 @@ pub(in crate::view) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String 
 }
 
 /// What is said of each of some ideas, line by line: of what, and that.
-#[must_use]
 pub(crate) fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
     let whys = Whys::new(outcome);
     let (teller, mut why) = (Teller::new(outcome, &whys), whys.teller());

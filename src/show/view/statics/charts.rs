@@ -8,56 +8,38 @@ use crate::statics::contour_group::stability::{DistanceErrors, Failure};
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::{LinkInertia, LoadSource};
 use crate::statics::planar::PairId;
-use crate::view::statics::{StaticsData, magnitudes};
-use crate::view::terminal::layout::prefix;
-use itertools::Itertools;
+use crate::view::prelude::*;
+use crate::view::statics::{StaticsData, magnitudes, size};
 
 /// Named figures of a group's reactions.
-type Figures<'a> = &'a dyn Fn(&GroupSolutions, GroupReactions) -> Vec<(&'static str, f64)>;
+type Figures<'a> = &'a dyn Fn(&Moment, &GroupSolutions, GroupReactions) -> Vec<(&'static str, f64)>;
 
 /// A chart with the name of its file, without the ending.
 pub type Named = (String, Chart);
 
-fn linear(label: impl Into<String>) -> Axis {
-    Axis {
-        label: label.into(),
-        scale: Scale::Linear,
-    }
-}
-
 fn log(label: impl Into<String>) -> Axis {
+    let scale = Scale::Log;
     Axis {
-        label: label.into(),
-        scale: Scale::Log,
+        scale,
+        ..Axis::linear(label)
     }
 }
 
-fn drive_axis(s: &StaticsData<'_>) -> Axis {
-    let name = s.drives.first().copied().unwrap_or("");
-    let unit = if s.found.drive_slides() {
-        "length units"
-    } else {
-        "degrees"
-    };
-    linear(format!("position of drive {name}, {unit}"))
-}
-
-/// How many forces from outside act.
+/// Returns the number of forces from outside.
 fn acting(x: &Moment) -> usize {
     let outside = x.loads.iter().filter(|l| l.source == LoadSource::External);
     outside.count()
 }
 
-/// Values over the cycle, one series a name; where forces set in or end the lines are broken.
+/// Returns values over the cycle, one series a name; lines are broken where forces set in or end.
 fn over(s: &StaticsData<'_>, f: impl Fn(&Moment) -> Vec<(String, f64)>) -> Vec<Series> {
     let mut series: Vec<Series> = Vec::new();
     let mut before = s.found.moments.first().map_or(0, acting);
     for x in &s.found.moments {
         let at = s.shown(x.drive);
         if acting(x) != before {
-            series
-                .iter_mut()
-                .for_each(|e| e.points.push((at, f64::NAN)));
+            let each = series.iter_mut();
+            each.for_each(|e| e.points.push((at, f64::NAN)));
             before = acting(x);
         }
         for (name, value) in f(x) {
@@ -82,19 +64,18 @@ fn scale(series: &mut [Series]) -> &'static str {
     prefix
 }
 
-/// Reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
-#[must_use]
+/// Returns the reactions of every group, where the guides' reactions act, the drives' effort, and how far the methods differ.
 pub fn cycle(s: &StaticsData<'_>) -> Vec<Named> {
     let Some(&shown) = s.methods.last() else {
         return Vec::new();
     };
-    let mut out = Charts {
-        of: s,
-        shown,
-        list: Vec::new(),
-    };
+    let list = Vec::new();
+    let mut out = Charts { of: s, shown, list };
     for (i, (index, letters)) in s.found.contour_groups.iter().enumerate() {
-        out.contour_group(i, *index, letters);
+        let title = s.group_name(*index);
+        out.contour_reactions(i, &title, letters);
+        out.tangential_reactions(i, &title, letters);
+        out.guide_bearing(i, &title, letters);
     }
     for index in 0..s.found.decomposition.groups.len() {
         if s.found.contour_groups.iter().all(|c| c.0 != index) {
@@ -118,40 +99,46 @@ struct Charts<'s, 'a> {
 }
 
 impl Charts<'_, '_> {
-    fn add(&mut self, file: String, [title, subtitle]: [String; 2], y: Axis, series: Vec<Series>) {
+    fn add(
+        &mut self,
+        file: impl Into<String>,
+        [title, subtitle]: [&str; 2],
+        y: Axis,
+        series: Vec<Series>,
+    ) {
+        let found = self.of.found;
+        let drive = found.decomposition.drives.first();
+        let drive = drive.map_or("", |&p| self.pair_name(p));
+        let unit = if found.drive_slides() {
+            "length units"
+        } else {
+            "degrees"
+        };
         let chart = Chart {
-            title: format!("{}: {title}", self.of.mechanism),
-            subtitle,
-            x: drive_axis(self.of),
+            title: format!("{}: {title}", self.of.of.name),
+            subtitle: subtitle.to_owned(),
+            x: Axis::linear(format!("position of drive {drive}, {unit}")),
             y,
             series,
         };
-        self.list.push((file, chart));
+        self.list.push((file.into(), chart));
     }
 
-    /// Figures of a group with a closed contour over the cycle.
+    /// Returns figures of a group with a closed contour over the cycle.
     fn solved(&self, i: usize, f: Figures<'_>) -> Vec<Series> {
         over(self.of, |x| {
             let found = x.groups.get(i);
-            let found = found.and_then(|g| Some(f(g, g.by(self.shown)?)));
+            let found = found.and_then(|g| Some(f(x, g, g.by(self.shown)?)));
             let named = found.into_iter().flatten();
             named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
         })
     }
 
-    /// A group with a closed contour: its reactions, the tangential ones, and where its guide bears.
-    fn contour_group(&mut self, i: usize, index: usize, letters: &ContourGroup) {
-        let title = self.of.groups[index].name();
-        self.contour_reactions(i, &title, letters);
-        self.tangential_reactions(i, &title, letters);
-        self.guide_bearing(i, &title, letters);
-    }
-
     fn pair_name(&self, p: PairId) -> &str {
-        &self.of.found.linkage.mechanism.pairs[p].name
+        &self.of.planar().pairs[p].name
     }
 
-    /// Which joints the letters of a group are.
+    /// Explains which joints the letters of a group are.
     fn letters_key(&self, letters: &ContourGroup) -> String {
         let named = [letters.d, letters.f, letters.k, letters.m, letters.l];
         let key = "DFKML".chars().zip(named);
@@ -160,99 +147,76 @@ impl Charts<'_, '_> {
     }
 
     fn contour_reactions(&mut self, i: usize, title: &str, letters: &ContourGroup) {
-        let mut series = self.solved(i, &|g, r| magnitudes(&r, &g.pose).to_vec());
-        let prefix = scale(&mut series);
+        let mut series = self.solved(i, &|_, g, r| magnitudes(&r, &g.pose).to_vec());
+        let y = Axis::linear(format!("reaction, {}N", scale(&mut series)));
         let (key, guide) = (self.letters_key(letters), self.pair_name(letters.guide));
         let subtitle = format!("{key}; guide {guide} with its sign");
-        self.add(
-            format!("group-{title}"),
-            [format!("reactions of group {title}"), subtitle],
-            linear(format!("reaction, {prefix}N")),
-            series,
-        );
+        let words = [&format!("reactions of group {title}"), &*subtitle];
+        self.add(format!("group-{title}"), words, y, series);
     }
 
     fn tangential_reactions(&mut self, i: usize, title: &str, letters: &ContourGroup) {
-        let mut series = self.solved(i, &|g, _| {
-            let steps = &g.steps;
-            vec![
-                ("R46τ", steps.r46_tangential),
-                ("R47τ", steps.r47_tangential),
-                ("R34τ", steps.r34_tangential),
-            ]
+        let mut series = self.solved(i, &|_, g, _| {
+            let s = &g.steps;
+            let forces = [s.r46_tangential, s.r47_tangential, s.r34_tangential];
+            ["R46τ", "R47τ", "R34τ"].into_iter().zip(forces).collect()
         });
-        let prefix = scale(&mut series);
+        let y = Axis::linear(format!("reaction, {}N", scale(&mut series)));
         let key = self.letters_key(letters);
-        self.add(
-            format!("tangential-{title}"),
-            [
-                format!("tangential reactions of group {title}"),
-                format!("By the δ-point method, across the rods and across Dδ; {key}"),
-            ],
-            linear(format!("reaction, {prefix}N")),
-            series,
-        );
+        let subtitle = format!("By the δ-point method, across the rods and across Dδ; {key}");
+        let words = [
+            &format!("tangential reactions of group {title}"),
+            &*subtitle,
+        ];
+        self.add(format!("tangential-{title}"), words, y, series);
     }
 
-    /// The arm of the guide's reaction, and where along the guide it acts.
+    /// Adds the arm of the guide's reaction, and where along the guide it acts.
     fn guide_bearing(&mut self, i: usize, title: &str, letters: &ContourGroup) {
         let linkage = &self.of.found.linkage;
         let far = 2.0 * linkage.size;
         // Far out the line only says that the reaction changes its sign.
         let near = |x: f64| if x.abs() <= far { x } else { f64::NAN };
-        let series = over(self.of, |x| {
+        let series = self.solved(i, &|x, g, r| {
             let guide = linkage.place(&x.pose, letters.guide);
-            let group = x.groups.get(i);
-            let solved = group.and_then(|g| Some((g, g.by(self.shown)?)));
-            let named = solved.map(|(g, r)| {
-                [
-                    ("arm h about D", near(r.arm)),
-                    (
-                        "offset along the guide",
-                        near(r.guide_offset(&g.pose, guide)),
-                    ),
-                ]
-            });
-            let named = named.into_iter().flatten();
-            named.map(|(n, v)| (n.to_owned(), v)).collect_vec()
+            let offset = near(r.guide_offset(&g.pose, guide));
+            vec![
+                ("arm h about D", near(r.arm)),
+                ("offset along the guide", offset),
+            ]
         });
         let slider = &linkage.mechanism.bodies[letters.slider].name;
-        let words = [
-            format!("where the guide bears link {slider}"),
-            format!(
-                "Point of application of the reaction of {}; broken where it vanishes",
-                self.pair_name(letters.guide)
-            ),
-        ];
-        self.add(format!("guide-{title}"), words, linear("m"), series);
+        let guide = self.pair_name(letters.guide);
+        let subtitle =
+            format!("Point of application of the reaction of {guide}; broken where it vanishes");
+        let words = [&format!("where the guide bears link {slider}"), &*subtitle];
+        self.add(format!("guide-{title}"), words, Axis::linear("m"), series);
     }
 
-    /// A group without a closed contour: its reactions.
+    /// Adds the reactions of a group without a closed contour.
     fn other_group(&mut self, index: usize) {
-        let (found, title) = (self.of.found, self.of.groups[index].name());
-        let (m, g) = (&found.linkage.mechanism, &found.decomposition.groups[index]);
+        let (found, title) = (self.of.found, self.of.group_name(index));
+        let g = &found.decomposition.groups[index];
         let pairs = g.pairs();
         let mut series = over(self.of, |x| {
             let own = x.reactions.iter().filter(|r| pairs.contains(&r.pair));
-            own.map(|r| (m.pairs[r.pair].name.clone(), r.force[0].hypot(r.force[1])))
+            own.map(|r| (self.pair_name(r.pair).to_owned(), size(r.force)))
                 .collect()
         });
-        let prefix = scale(&mut series);
-        self.add(
-            format!("group-{title}"),
-            [format!("reactions of group {title}"), g.class.to_string()],
-            linear(format!("reaction, {prefix}N")),
-            series,
-        );
+        let y = Axis::linear(format!("reaction, {}N", scale(&mut series)));
+        let words = [
+            &*format!("reactions of group {title}"),
+            &g.class.to_string(),
+        ];
+        self.add(format!("group-{title}"), words, y, series);
     }
 
-    /// What the drives do.
+    /// Adds the effort of the drives.
     fn drive(&mut self) {
-        let m = &self.of.found.linkage.mechanism;
         let mut series = over(self.of, |x| {
-            x.reactions
-                .iter()
-                .filter_map(|r| Some((m.pairs[r.pair].name.clone(), r.effort?)))
+            let drives = x.reactions.iter();
+            drives
+                .filter_map(|r| Some((self.pair_name(r.pair).to_owned(), r.effort?)))
                 .collect()
         });
         if series.is_empty() {
@@ -264,68 +228,55 @@ impl Charts<'_, '_> {
         } else {
             ("torque", "N·m")
         };
-        self.add(
-            "drive".to_owned(),
-            [format!("{what} of the drive"), String::new()],
-            linear(format!("{what}, {prefix}{unit}")),
-            series,
-        );
+        let y = Axis::linear(format!("{what}, {prefix}{unit}"));
+        self.add("drive", [&format!("{what} of the drive"), ""], y, series);
     }
 
-    /// Accelerations and inertia forces, where anything moves that has a mass.
+    /// Adds accelerations and inertia forces, if anything moves that has a mass.
     fn inertia(&mut self) {
-        let found = self.of.found;
-        let m = &found.linkage.mechanism;
-        let links = |x: &Moment, of: &dyn Fn(&LinkInertia) -> f64| -> Vec<(String, f64)> {
-            x.links
-                .iter()
-                .map(|l| (m.bodies[l.body].name.clone(), of(l)))
-                .collect()
+        let links = |of: &dyn Fn(&LinkInertia) -> f64| {
+            over(self.of, |x| {
+                let name = |l: &LinkInertia| self.of.planar().bodies[l.body].name.clone();
+                x.links.iter().map(|l| (name(l), of(l))).collect()
+            })
         };
-        let size = |v: [f64; 2]| v[0].hypot(v[1]);
-        let series = over(self.of, |x| links(x, &|l| size(l.acceleration)));
+        let series = links(&|l| size(l.acceleration));
+        let mut forces = links(&|l| size(l.force));
         if series.iter().flat_map(|e| &e.points).all(|p| p.1 <= 0.0) {
             return;
         }
+        let words = ["accelerations of the links' mass centres", ""];
         self.add(
-            "accelerations".to_owned(),
-            [
-                "accelerations of the links' mass centres".to_owned(),
-                String::new(),
-            ],
-            linear("acceleration, m/s²"),
+            "accelerations",
+            words,
+            Axis::linear("acceleration, m/s²"),
             series,
         );
-        let mut series = over(self.of, |x| links(x, &|l| size(l.force)));
-        let prefix = scale(&mut series);
+        let y = Axis::linear(format!("inertia force, {}N", scale(&mut forces)));
         self.add(
-            "inertia-forces".to_owned(),
-            ["inertia forces of the links".to_owned(), String::new()],
-            linear(format!("inertia force, {prefix}N")),
-            series,
+            "inertia-forces",
+            ["inertia forces of the links", ""],
+            y,
+            forces,
         );
     }
 
-    /// How far the methods differ.
+    /// Adds how far the methods differ.
     fn methods(&mut self) {
         let (s, methods) = (self.of, self.of.methods);
         let series = over(s, |x| {
             let named = x.groups.iter().map(|g| {
                 let differ = g.disagreement(methods).unwrap_or(f64::NAN);
-                let name = s.groups[g.group].name();
-                (format!("group {name}"), differ.max(1e-17))
+                (
+                    format!("group {}", s.group_name(g.group)),
+                    differ.max(1e-17),
+                )
             });
             named.collect()
         });
-        self.add(
-            "methods".to_owned(),
-            [
-                "how far the methods differ".to_owned(),
-                methods.iter().map(|x| x.name()).join(", "),
-            ],
-            log("greatest difference over the greatest reaction"),
-            series,
-        );
+        let names = methods.iter().map(|x| x.name()).join(", ");
+        let y = log("greatest difference over the greatest reaction");
+        self.add("methods", ["how far the methods differ", &names], y, series);
     }
 }
 
@@ -356,7 +307,6 @@ fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
 }
 
 /// Errors of the methods against the distance from a failure.
-#[must_use]
 pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
     // What is exact to the last bit is shown at the foot.
     let shown = |x: f64| {
@@ -400,7 +350,6 @@ pub fn stability(failure: Failure, samples: &[DistanceErrors]) -> Named {
 }
 
 /// Rows of a table: failure, figure, method, and the errors at distances 1, 1e-3, ... 1e-15.
-#[must_use]
 pub fn stability_rows(failure: Failure, samples: &[DistanceErrors]) -> Vec<Vec<String>> {
     let at = |decade: i32| {
         let wanted = 10f64.powi(-decade);

@@ -4,70 +4,59 @@ use crate::format::csv::table;
 use crate::statics::contour_group::pose::{GroupPose, GroupReactions};
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::cycle::Moment;
-use crate::statics::kinetostatics;
-use crate::view::statics::{Reaction, StaticsData};
+use crate::statics::kinetostatics::Reaction;
+use crate::view::statics::StaticsData;
 
-/// One line a drive position, method and joint: every joint by the equilibrium, those of the four-link groups by the other
-/// methods too. The force is that on `on`; for sliding joints the moment is about (x, y).
-#[must_use]
+const HEADS: &str = "drive,method,joint,from,on,x_m,y_m,fx_N,fy_N,moment_Nm,effort";
+
+/// Returns a line for each drive position, method and joint: every joint by the equilibrium, those of the four-link groups by the
+/// other methods too. The force is that on `on`; for sliding joints the moment is about (x, y).
 pub fn csv(s: &StaticsData<'_>) -> String {
+    let m = s.planar();
     let mut rows = Vec::new();
-    for (position, x) in s.positions.iter().zip(&s.found.moments) {
-        let mut add = |method: GroupMethod, r: &Reaction| {
-            let mut row = vec![position.drive.to_string(), method.name().to_owned()];
-            row.extend([r.joint, r.from, r.on].map(str::to_owned));
-            let passed = r.passed;
-            let [[x, y], [fx, fy]] = [passed.point, passed.force];
-            row.extend([x, y, fx, fy, passed.moment].map(|v| v.to_string()));
-            row.push(passed.effort.map_or_else(String::new, |e| e.to_string()));
+    for x in &s.found.moments {
+        let mut add = |method: GroupMethod, on: usize, r: &Reaction| {
+            let pair = &m.pairs[r.pair];
+            let from = pair.other(on).unwrap_or(on);
+            let mut row = vec![x.drive.to_string(), method.name().to_owned()];
+            let [from, on] = [from, on].map(|b| m.bodies[b].name.clone());
+            row.extend([pair.name.clone(), from, on]);
+            let numbers = [r.point[0], r.point[1], r.force[0], r.force[1], r.moment];
+            row.extend(numbers.map(|v| v.to_string()));
+            row.push(r.effort.map_or_else(String::new, |e| e.to_string()));
             rows.push(row);
         };
-        if s.methods.contains(&GroupMethod::Equilibrium) {
-            let all = position.reactions.iter();
-            all.for_each(|r| add(GroupMethod::Equilibrium, r));
+        for &method in s.methods {
+            if method == GroupMethod::Equilibrium {
+                let all = x.reactions.iter();
+                all.for_each(|r| add(method, m.pairs[r.pair].bodies[1], r));
+            }
         }
         for at in 0..x.groups.len() {
-            for method in s.methods {
-                if *method != GroupMethod::Equilibrium {
-                    let all = of_group(s, x, at, *method);
-                    all.iter().for_each(|r| add(*method, r));
+            for &method in s.methods {
+                if method != GroupMethod::Equilibrium {
+                    let all = of_group(s, x, at, method);
+                    all.iter().for_each(|(on, r)| add(method, *on, r));
                 }
             }
         }
     }
-    let heads = [
-        "drive",
-        "method",
-        "joint",
-        "from",
-        "on",
-        "x_m",
-        "y_m",
-        "fx_N",
-        "fy_N",
-        "moment_Nm",
-        "effort",
-    ];
-    table(&heads, rows)
+    table(&HEADS.split(',').collect::<Vec<_>>(), rows)
 }
 
-/// What the six joints of a four-link group pass on by one method.
-fn of_group<'a>(
-    s: &StaticsData<'a>,
+/// Returns the reactions of the six joints of a four-link group by one method, each with the link acted on.
+fn of_group(
+    s: &StaticsData<'_>,
     x: &Moment,
     at: usize,
     method: GroupMethod,
-) -> Vec<Reaction<'a>> {
-    let (linkage, g, l) = (
-        &s.found.linkage,
-        &x.groups[at],
-        &s.found.contour_groups[at].1,
-    );
+) -> Vec<(usize, Reaction)> {
+    let (g, l) = (&x.groups[at], &s.found.contour_groups[at].1);
     let Some(r) = g.by(method) else {
         return Vec::new();
     };
     let pose = &g.pose;
-    let guide = linkage.place(&x.pose, l.guide);
+    let guide = s.found.linkage.place(&x.pose, l.guide);
     let places = [
         (l.d, l.ternary, pose.d),
         (l.f, l.rods[0], pose.f),
@@ -78,30 +67,24 @@ fn of_group<'a>(
     ];
     let each = places.into_iter().zip(r.forces(pose));
     each.map(|((pair, on, point), force)| {
-        let pair_of = &linkage.mechanism.pairs[pair];
-        let other = pair_of.other(on).unwrap_or(on);
-        let name = |b: usize| linkage.mechanism.bodies[b].name.as_str();
-        Reaction {
-            joint: &pair_of.name,
-            from: name(other),
-            on: name(on),
-            passed: kinetostatics::Reaction {
-                pair,
-                point,
-                force,
-                moment: if pair == l.guide {
-                    guide_moment(&r, pose, guide)
-                } else {
-                    0.0
-                },
-                effort: None,
+        let is_guide = pair == l.guide;
+        let reaction = Reaction {
+            pair,
+            point,
+            force,
+            moment: if is_guide {
+                guide_moment(&r, pose, guide)
+            } else {
+                0.0
             },
-        }
+            effort: None,
+        };
+        (on, reaction)
     })
     .collect()
 }
 
-/// Moment of the guide's reaction about a point.
+/// Returns the moment of the guide's reaction about a point.
 fn guide_moment(r: &GroupReactions, pose: &GroupPose, about: [f64; 2]) -> f64 {
     let normal = pose.normal().map(|c| c * r.guide);
     let arm = [pose.d[0] - about[0], pose.d[1] - about[1]];

@@ -1,18 +1,16 @@
 //! Force plans of the four-link groups, drawn where forces from outside load them most.
 
 use crate::chart::{Panel, PanelPair, PlanArrow, Polygons};
-use crate::format::figure;
 use crate::statics::contour_group::force_plan::{
     Plan, PlanForce, PlanKind, force_plans, group_loads,
 };
 use crate::statics::contour_group::solutions::GroupSolutions;
 use crate::statics::cycle::Moment;
 use crate::statics::kinetostatics::LoadSource;
-use crate::view::statics::StaticsData;
-use crate::view::terminal::layout::prefix;
+use crate::view::prelude::*;
+use crate::view::statics::{StaticsData, size};
 
 /// The drawing of each group, with the name of its file.
-#[must_use]
 pub fn plans(s: &StaticsData<'_>) -> Vec<(String, Polygons)> {
     let groups = 0..s.found.contour_groups.len();
     groups.filter_map(|i| plan(s, i)).collect()
@@ -23,7 +21,7 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
     let outside = |x: &&Moment| -> f64 {
         let own = x.groups.get(i).into_iter().flat_map(|g| &g.pose.loads);
         let forces = own.filter(|l| l.source == LoadSource::External);
-        forces.map(|l| l.force[0].hypot(l.force[1])).sum()
+        forces.map(|l| size(l.force)).sum()
     };
     let solved = s.found.moments.iter().filter(|x| x.groups.len() > i);
     // Of equal loads the first.
@@ -32,11 +30,7 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
         .max_by(|a, b| outside(a).total_cmp(&outside(b)))?;
     let pairs = force_plans(&heaviest.groups[i])?;
     let sizes = pairs.iter().flatten().flat_map(|p| &p.forces);
-    let (unit, prefix) = prefix(
-        sizes
-            .map(|f| f.force[0].hypot(f.force[1]))
-            .fold(0.0, f64::max),
-    );
+    let (unit, prefix) = prefix(sizes.map(|f| size(f.force)).fold(0.0, f64::max));
     let panel = |p: Plan, by: &str| Panel {
         title: format!("{}, {by}", p.of),
         arrows: p.forces.iter().map(|f| arrow(f, unit)).collect(),
@@ -50,34 +44,23 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
     });
     let mut rows: Vec<PanelPair> = rows.collect();
     rows.push(own_loads(&heaviest.groups[i], unit));
-    let name = s.groups[*index].name();
-    let m = &s.found.linkage.mechanism;
-    let places = [
-        letters.ternary,
-        letters.rods[0],
-        letters.rods[1],
-        letters.slider,
-    ];
-    let places = ["4", "6", "7", "10"]
-        .iter()
-        .zip(places.map(|b| &m.bodies[b].name));
-    let places: Vec<String> = places
-        .map(|(letter, name)| format!("{letter} = {name}"))
-        .collect();
-    Some((
-        format!("force-plan-{name}"),
-        Polygons {
-            title: format!("{}: force plans of group {name}", s.mechanism),
-            subtitle: format!(
-                "At {} {}, where forces from outside load it most; links {}.",
-                figure(s.shown(heaviest.drive)),
-                s.unit(),
-                places.join(", ")
-            ),
-            unit: format!("{prefix}N"),
-            rows,
-        },
-    ))
+    let name = s.group_name(*index);
+    let bodies = &s.planar().bodies;
+    let [a, b] = letters.rods;
+    let places = [letters.ternary, a, b, letters.slider].map(|b| &bodies[b].name);
+    let places = ["4", "6", "7", "10"].iter().zip(places);
+    let places = places.map(|(letter, name)| format!("{letter} = {name}"));
+    let plans = Polygons {
+        title: format!("{}: force plans of group {name}", s.of.name),
+        subtitle: format!(
+            "At {}, where forces from outside load it most; links {}.",
+            s.place(heaviest.drive),
+            places.format(", ")
+        ),
+        unit: format!("{prefix}N"),
+        rows,
+    };
+    Some((format!("force-plan-{name}"), plans))
 }
 
 /// The weights and the inertia forces of the group, each added up on its own, since beside forces from outside they are too

@@ -1,45 +1,38 @@
-//! Reactions as the equations that determine them have them, with the grip that causes them where there is one.
+//! Reactions in a plane, in one pose or over a stroke, with the grip that causes them if there is one.
 
 use crate::grip;
 use crate::grip::clamping::DiameterRow;
 use crate::grip::jaw_loads::Gripping;
 use crate::model::loads::Stroke;
-use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::stress::exact_self_stresses;
 use crate::statics::contour_group::solutions::GroupMethod;
 use crate::statics::solve::SolvedReactions;
 use crate::view::grip::clamped::{Clamped, pose};
+use crate::view::prelude::*;
+use crate::view::reactions::Reactions;
 use crate::view::reactions::stroke::ReactionsOverStroke;
-use crate::view::reactions::{Reactions, text::reactions};
-use crate::view::statics::{StaticsData, csv::csv, text::statics};
-use serde::Serialize;
+use crate::view::statics::StaticsData;
+use crate::view::statics::csv::csv;
 
 /// Reactions in a plane, in one pose, or over a stroke.
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
+#[derive(Debug)]
 pub enum ToldReactions<'a> {
     /// In the plane, over a stroke or in one pose.
-    Planar(Box<StaticsData<'a>>),
+    Planar(StaticsData<'a>),
     /// In space, in one pose.
-    Pose(Box<Reactions<'a>>),
+    Pose(Reactions<'a>),
     /// In space, over a stroke.
     Stroke(ReactionsOverStroke<'a>),
 }
 
 /// The answer of `ozols statics`.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub struct ToldStatics<'a> {
     /// The reactions.
-    #[serde(flatten)]
     pub reactions: ToldReactions<'a>,
-    /// The state, where the reactions do not name it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub state: Option<&'a str>,
     /// The grip that loads the mechanism.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub grip: Option<Clamped<'a>>,
+    grip: Option<Clamped<'a>>,
     /// The pose in words.
-    #[serde(skip)]
     pose: String,
 }
 
@@ -52,13 +45,13 @@ impl<'a> ToldReactions<'a> {
         methods: &'a [GroupMethod],
     ) -> Self {
         match found {
-            SolvedReactions::Planar(found) => {
-                ToldReactions::Planar(Box::new(StaticsData::new(m, found, methods)))
-            }
+            SolvedReactions::Planar(found) => ToldReactions::Planar(StaticsData {
+                of: m,
+                found,
+                methods,
+            }),
             SolvedReactions::Spatial(found) => match (&found.positions[..], stroke) {
-                ([(_, Ok(one))], None) => {
-                    ToldReactions::Pose(Box::new(Reactions::new(m, state, one)))
-                }
+                ([(_, Ok(one))], None) => ToldReactions::Pose(Reactions::new(m, state, one)),
                 _ => ToldReactions::Stroke(ReactionsOverStroke::new(m, state, found)),
             },
         }
@@ -66,8 +59,7 @@ impl<'a> ToldReactions<'a> {
 }
 
 impl<'a> ToldStatics<'a> {
-    /// What was found of a state over a stroke, or in the pose of the file; the four-link groups by `methods`.
-    #[must_use]
+    /// The reactions of a state over a stroke, or in the pose of the file; the four-link groups by `methods`.
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
@@ -83,26 +75,20 @@ impl<'a> ToldStatics<'a> {
         }
         ToldStatics {
             reactions,
-            state: None,
             grip: None,
             pose: "pose of the file".to_owned(),
         }
     }
 
-    /// What was found round the part of a row.
-    #[must_use]
+    /// The reactions round the part of a row.
     pub fn round_a_part(
         g: &'a Gripping,
         row: &'a DiameterRow,
         found: &'a grip::clamped::Clamped,
     ) -> Self {
-        let m = &found.mechanism;
-        let methods = &GroupMethod::ALL;
-        let reactions = ToldReactions::new(m, g.state, None, &found.found, methods);
-        let flat = matches!(reactions, ToldReactions::Planar(_));
+        let (m, methods) = (&found.mechanism, &GroupMethod::ALL);
         ToldStatics {
-            reactions,
-            state: flat.then(|| m.states[g.state].as_str()),
+            reactions: ToldReactions::new(m, g.state, None, &found.found, methods),
             grip: Some(Clamped {
                 grip: g,
                 row,
@@ -112,8 +98,23 @@ impl<'a> ToldStatics<'a> {
         }
     }
 
-    /// As CSV, in SI units.
-    #[must_use]
+    /// Returns all of it as data.
+    pub fn json(&self) -> Value {
+        let mut out = match &self.reactions {
+            ToldReactions::Planar(s) => s.json(),
+            ToldReactions::Pose(s) => s.json(),
+            ToldReactions::Stroke(s) => s.json(),
+        };
+        if let Some(grip) = &self.grip {
+            if let ToldReactions::Planar(s) = &self.reactions {
+                out["state"] = json!(s.of.states[grip.grip.state]);
+            }
+            out["grip"] = grip.json();
+        }
+        out
+    }
+
+    /// Returns the reactions as CSV, in SI units.
     pub fn csv(&self) -> String {
         match &self.reactions {
             ToldReactions::Planar(s) => csv(s),
@@ -122,15 +123,14 @@ impl<'a> ToldStatics<'a> {
         }
     }
 
-    /// The report, fitted to a terminal of `width` columns where one is given.
-    #[must_use]
+    /// Returns the report, fitted to a terminal of `width` columns if one is given.
     pub fn text(&self, width: Option<u16>) -> String {
         let flat = matches!(self.reactions, ToldReactions::Planar(_));
         let grip = self.grip.as_ref().map(|g| g.text(flat, width));
         grip.unwrap_or_default()
             + &match &self.reactions {
-                ToldReactions::Planar(s) => statics(s, width),
-                ToldReactions::Pose(s) => reactions(s, &self.pose, width),
+                ToldReactions::Planar(s) => s.text(width),
+                ToldReactions::Pose(s) => s.text(&self.pose, width),
                 ToldReactions::Stroke(s) => s.text(width),
             }
     }

@@ -3,12 +3,57 @@
 use comfy_table::{ColumnConstraint, ContentArrangement, Table, TableComponent, Width, presets};
 use console::measure_text_width;
 use itertools::Itertools;
+use std::fmt::Display;
 
-/// A plain table. Where the output is a terminal of `width` columns, columns of words are wrapped, numbers and names are not
-/// but where one takes more than half of the width; a table too wide for that is given in parts, one below the other, each with
-/// the first column.
-#[must_use]
-pub fn table(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
+/// A text for people: lines and tables, fitted to a terminal of some width if one is given.
+#[derive(Debug)]
+pub(crate) struct Report {
+    text: String,
+    width: Option<u16>,
+}
+
+impl Report {
+    pub(crate) fn new(width: Option<u16>) -> Report {
+        let text = String::new();
+        Report { text, width }
+    }
+
+    /// Adds a line, or a paragraph of several.
+    pub(crate) fn line(&mut self, line: impl AsRef<str>) {
+        self.text += line.as_ref();
+        self.text.push('\n');
+    }
+
+    /// Adds a table.
+    pub(crate) fn table(&mut self, heads: &str, rows: impl IntoIterator<Item = Vec<String>>) {
+        self.line(table(heads, rows, self.width));
+    }
+
+    /// Returns the text; lines that are too long are broken between words.
+    pub(crate) fn text(self) -> String {
+        fit(&self.text, self.width)
+    }
+}
+
+/// Returns a row of a table.
+pub fn cells<const N: usize>(of: [&dyn Display; N]) -> Vec<String> {
+    of.iter().map(ToString::to_string).collect()
+}
+
+/// Returns a plain table; its heads are separated by ` | `. If the output is a terminal of `width` columns, columns of words are
+/// wrapped, and numbers and names only if one takes more than half of the width. A table that is still too wide is given in parts, one
+/// below the other, each with the first column.
+pub fn table(
+    heads: &str,
+    rows: impl IntoIterator<Item = Vec<String>>,
+    width: Option<u16>,
+) -> String {
+    let heads: Vec<&str> = heads.split(" | ").collect();
+    table_of(&heads, rows.into_iter().collect(), width)
+}
+
+/// Returns the same with heads that may hold any text.
+pub fn table_of(header: &[&str], rows: Vec<Vec<String>>, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return render(header, rows, None);
     };
@@ -111,7 +156,6 @@ fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
 }
 
 /// A text with the lines that are too long broken between words, the rest of them set in by two more.
-#[must_use]
 pub fn fit(text: &str, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return text.to_owned();
@@ -182,13 +226,13 @@ mod tests {
                 "2-3 -> spherical".to_owned(),
             ],
         ];
-        let head = ["", "moment", "changes"];
-        let text = table(&head, rows.clone(), Some(40));
+        let head = " | moment | changes";
+        let text = table(head, rows.clone(), Some(40));
         assert!(widest(&text) <= 40, "{text}");
         assert!(text.contains("0.1414") && text.contains("; 5-1"), "{text}");
-        let free = table(&head, rows.clone(), None);
-        assert_eq!(free, table(&head, rows.clone(), Some(200)));
-        let narrow = table(&head, rows, Some(20));
+        let free = table(head, rows.clone(), None);
+        assert_eq!(free, table(head, rows.clone(), Some(200)));
+        let narrow = table(head, rows, Some(20));
         assert!(
             widest(&narrow) <= 20 && narrow.contains("moment"),
             "{narrow}"
@@ -206,11 +250,7 @@ mod tests {
                 "12".to_owned(),
             ]
         };
-        let text = table(
-            &["contour", "joints", "rank"],
-            vec![row(1), row(3)],
-            Some(60),
-        );
+        let text = table("contour | joints | rank", [row(1), row(3)], Some(60));
         assert!(widest(&text) <= 60, "{text}");
         assert!(text.contains("joint4") && text.contains("12"), "{text}");
         let rule = text.lines().nth(1).unwrap().trim_start();

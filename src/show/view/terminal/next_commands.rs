@@ -1,11 +1,10 @@
 //! What to do next: commands, with what each is for.
 
-use crate::model::mechanism::Mechanism;
 use crate::score::request::{JointOptions, List, Request};
 use crate::search::question::conditions::Symmetry;
 use crate::search::question::kept::Drives;
-use crate::view::terminal::layout::fit;
-use itertools::Itertools;
+use crate::view::prelude::*;
+use std::fmt::Display;
 
 /// A command and what it gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,7 +17,6 @@ pub struct NextCommand {
 
 impl NextCommand {
     /// The command that mends a robot description in the owner's own file.
-    #[must_use]
     pub fn mend(file: &str, more: &str, gives: &str) -> NextCommand {
         let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
         let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
@@ -26,7 +24,6 @@ impl NextCommand {
     }
 
     /// A command of this program about a file.
-    #[must_use]
     pub fn new(command: &str, file: &str, more: &str, gives: &str) -> NextCommand {
         let more = if more.is_empty() {
             String::new()
@@ -42,7 +39,6 @@ impl NextCommand {
 
 /// The steps as the end of a report, fitted to a terminal of `width` columns but for the commands: a command broken in two
 /// could not be copied. Nothing where there are none.
-#[must_use]
 pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
     if steps.is_empty() {
         return String::new();
@@ -58,7 +54,6 @@ pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
 }
 
 /// The flags that make a search's list what it is, as they are typed: those of `search`, `draw` and `export` are the same.
-#[must_use]
 pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     let joints = |rule: &JointOptions| match rule.names.as_slice() {
         [] => rule.joint.clone(),
@@ -113,18 +108,17 @@ pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
         ("as-written", r.as_written),
     ];
     valued
-        .filter_map(|(flag, value)| Some(format!("--{flag} {}", word(&value?))))
-        .chain(
-            switches
-                .iter()
-                .filter(|(_, on)| *on)
-                .map(|(flag, _)| format!("--{flag}")),
-        )
+        .filter_map(|(option, value)| Some(flag(option, word(&value?))))
+        .chain(switches.iter().filter(|s| s.1).map(|s| flag(s.0, "")))
         .join(" ")
 }
 
+/// Returns an option as it is typed, with its value if it has one: everything else names options by their fields.
+pub(crate) fn flag(option: &str, value: impl Display) -> String {
+    format!("--{option} {value}").trim_end().to_owned()
+}
+
 /// A word as a shell takes it; standard input cannot be read again, so it is FILE.
-#[must_use]
 pub fn word(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     match text {
@@ -135,13 +129,11 @@ pub fn word(text: &str) -> String {
 }
 
 /// A file name made of a mechanism's name.
-#[must_use]
 pub fn file_name(name: &str, ending: &str) -> String {
     word(&format!("{}.{ending}", stem(name)))
 }
 
 /// The same without its ending, as it is.
-#[must_use]
 pub fn stem(name: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let stem: String = name
