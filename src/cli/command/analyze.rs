@@ -46,7 +46,8 @@ pub(in crate::cli) struct Analyze {
     /// Relative tolerance of the floating-point methods [default: depends on the method].
     #[arg(long, value_name = "T")]
     pub(in crate::cli) tolerance: Option<f64>,
-    /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial.
+    /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial. Refused if a joint cannot
+    /// move in that plane.
     #[arg(long)]
     pub(in crate::cli) planar: bool,
     /// Also report the motion of this link (repeatable).
@@ -83,7 +84,7 @@ pub(in crate::cli) struct Analyze {
 pub(in crate::cli) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file)?;
     if a.planar {
-        load::put_in_plane(&mut mechanism);
+        load::put_in_plane(&mut mechanism)?;
     }
     let states = states_asked(&mechanism, a)?;
     check_tolerance(a)?;

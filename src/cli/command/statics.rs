@@ -30,7 +30,7 @@ pub(in crate::cli) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let loops = a.loops.clone();
     let mut m = load::mechanism(&File { file, loops })?;
     if a.planar {
-        load::put_in_plane(&mut m);
+        load::put_in_plane(&mut m)?;
     }
     let Some(state) = m.state(&a.state) else {
         bail!(

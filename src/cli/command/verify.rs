@@ -81,7 +81,7 @@ pub(in crate::cli) fn write(
 pub(in crate::cli) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file)?;
     if a.planar {
-        load::put_in_plane(&mut m);
+        load::put_in_plane(&mut m)?;
     }
     let name = a.certificates.display();
     let bytes =
