@@ -152,7 +152,12 @@ pub(in crate::cli) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<
         "--planar does not apply to {}: no freedom of {} lies in the plane of x and y; omit --planar to model all six components, \
          or place the axes of hinges along z and those of sliders across it",
         mechanism.name,
-        list(&stuck.iter().map(|id| format!("joint {id}")).collect::<Vec<_>>())
+        list(
+            &stuck
+                .iter()
+                .map(|id| format!("joint {id}"))
+                .collect::<Vec<_>>()
+        )
     );
     let all = std::mem::take(&mut mechanism.couplings);
     let stays = |c: &Coupling| {

@@ -123,65 +123,55 @@ impl Outcome {
 
     /// Returns the counts of the variants that are listed: those that keep the motion throughout, where that is known, or else the
     /// admissible ones.
-    #[must_use]
     pub fn listed_counts(&self) -> &Counts {
         self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
     /// Whether everything was looked at in exact arithmetic, and singular values do not contradict it where coordinates look
     /// rounded, so that counts are exact and the list is the best there is.
-    #[must_use]
     pub fn is_exact(&self) -> bool {
         self.is_counted() && self.is_confirmed()
     }
 
     /// Whether exact arithmetic looked at everything, be its answer right or not.
-    #[must_use]
     pub fn is_counted(&self) -> bool {
         self.stop == Stop::Exhausted && self.numeric.is_none()
     }
 
     /// Whether nothing speaks against exact arithmetic.
-    #[must_use]
     pub fn is_confirmed(&self) -> bool {
         self.second.as_ref().is_none_or(SecondOpinion::confirms)
     }
 
     /// Whether every variant was judged by singular values.
-    #[must_use]
     pub fn is_numeric_whole(&self) -> bool {
         self.numeric.as_ref().is_some_and(AtTolerance::is_whole)
     }
 
     /// Whether there may be admissible variants beside those counted, which singular values do not decide.
-    #[must_use]
     pub fn admissible_may_be_more(&self) -> bool {
         let found = self.numeric.as_ref();
         found.is_some_and(|f| !f.admissible.is_narrow())
     }
 
     /// Whether the determinate variants are counted exactly, however the rest ended.
-    #[must_use]
     pub fn is_determinate_exact(&self) -> bool {
         self.is_determinate_counted() && self.is_confirmed()
     }
 
     /// Whether exact arithmetic looked at all that may be determinate, be its answer right or not.
-    #[must_use]
     pub fn is_determinate_counted(&self) -> bool {
         self.determinate_stop == Stop::Exhausted && self.numeric.is_none()
     }
 
     /// The cost in thousandths up to which every admissible variant is known, however the search ended; `None` where of no
     /// cost it can be said.
-    #[must_use]
     pub fn known_up_to(&self) -> Option<i64> {
         let found = self.diagrams.as_ref().filter(|_| self.is_confirmed());
         found?.known_up_to()
     }
 
     /// About how many determinate and admissible variants there are, where the search ended early.
-    #[must_use]
     pub fn estimates(&self) -> [Option<&Estimate>; 2] {
         let found = self.diagrams.as_ref();
         [0, 1].map(|i| found.and_then(|d| d.estimates[i].as_ref()))
@@ -192,7 +182,6 @@ impl Outcome {
     ///
     /// # Complexity
     /// That of a diagram of the minimal variants.
-    #[must_use]
     pub fn minimal(&self) -> Option<BigUint> {
         let found = self.diagrams.as_ref().filter(|_| self.is_exact());
         self.search.minimal(found?)
@@ -203,7 +192,6 @@ impl Outcome {
     ///
     /// # Complexity
     /// One more tally of the diagram.
-    #[must_use]
     pub fn admissible_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
         if let Some(found) = &self.numeric {
             return Some(found.by_cost.clone());
@@ -218,7 +206,6 @@ impl Outcome {
 
     /// Returns the counts by cost of those of them that keep the motion throughout; `None` where these are not known, or as
     /// [`Outcome::admissible_by_cost`].
-    #[must_use]
     pub fn lasting_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
         let diagrams = self.diagrams.as_ref();
         let lasting = diagrams.and_then(|d| d.lasting.as_ref().ok());

@@ -221,7 +221,6 @@ impl Default for Request {
 
 impl Request {
     /// What the list that is asked for has, one at a place: "idea" or "variant". The third of each are different mechanisms.
-    #[must_use]
     pub fn one(&self) -> &'static str {
         if self.distinct { IDEA } else { VARIANT }
     }
@@ -396,7 +395,6 @@ impl Request {
 
     /// How many of the cheapest variants a ranking scores before it goes through the others; as [`Request::pool`] of another
     /// request, it is these and no others.
-    #[must_use]
     pub fn cheapest_scored(&self) -> usize {
         self.pool.unwrap_or(POOL)
     }

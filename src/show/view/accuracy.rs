@@ -1,143 +1,76 @@
 //! How right and how fast methods and ways of searching are, for people and as data.
 
 use crate::accuracy::AnswerVerdict;
-use crate::accuracy::pictures::repeated;
-use crate::accuracy::searching::pictures::{USE_WHEN, ranking, wrong};
-use crate::accuracy::searching::record::{Record, Share, Trial, TrialRow, rows};
-use crate::accuracy::stability::Study;
+use crate::accuracy::searching::pictures::{ranking, wrong};
+use crate::accuracy::searching::record::{Bracket, Record, Share, Trial};
+use crate::accuracy::study::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::{duration, grouped, signed};
+use crate::format::{brief, duration, grouped, signed};
 use crate::rank::method::{MobilityMethod, registry};
 use crate::view::terminal::layout::{fit, table};
-use serde::Serialize;
 use std::cmp::Reverse;
 use std::fmt::Write;
 
-/// Everything, for programs: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
-#[derive(Debug, Serialize)]
-pub struct BenchData<'a> {
-    machine: MachineData<'a>,
-    mechanisms: Vec<TrialData<'a>>,
-    ways: Vec<TrialRow<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct MachineData<'a> {
-    processor: &'a str,
-    threads: usize,
-    cores: usize,
-    memory_bytes: Option<u64>,
-    system: &'a str,
-    version: &'static str,
-    optimised: bool,
-    clock: &'static str,
-}
-
-#[derive(Debug, Serialize)]
-struct TrialData<'a> {
-    mechanism: &'a str,
-    space: String,
-    determinate: Option<String>,
-    admissible: Option<String>,
-    looked_at: usize,
-    all_looked_at: bool,
-    top: usize,
-    ranked_by_pool: Option<usize>,
-    ranking_proven: Option<bool>,
-}
-
-impl<'a> BenchData<'a> {
-    /// Of some trials.
-    #[must_use]
-    pub fn new(trials: &'a [Trial], machine: &'a Machine) -> BenchData<'a> {
-        let trial = |t: &'a Trial| {
-            let found = |i: usize| t.found.as_ref().map(|f| f[i].to_string());
-            TrialData {
-                mechanism: &t.mechanism,
-                space: t.space.to_string(),
-                determinate: found(0),
-                admissible: found(1),
-                looked_at: t.looked,
-                all_looked_at: t.whole,
-                top: t.top,
-                ranked_by_pool: t.ranked.map(|r| r.0),
-                ranking_proven: t.ranked.map(|r| r.1),
-            }
-        };
-        BenchData {
-            machine: MachineData {
-                processor: &machine.processor,
-                threads: machine.threads,
-                cores: machine.cores,
-                memory_bytes: machine.memory,
-                system: &machine.system,
-                version: Machine::VERSION,
-                optimised: machine.optimised,
-                clock: machine.time(),
-            },
-            mechanisms: trials.iter().map(trial).collect(),
-            ways: rows(trials),
-        }
-    }
-}
-
-/// A table for each mechanism, and on what machine they were made.
-#[must_use]
-pub fn bench_text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
+/// Returns a table for each mechanism, advice, and the machine that they were made on.
+pub fn bench_text(
+    trials: &[Trial],
+    advice: &[&str],
+    machine: &Machine,
+    width: Option<u16>,
+) -> String {
     let mut out = String::new();
     for t in trials {
-        out += &fit(&trial_head(t), width);
+        let known = match t.determinate.as_ref().zip(t.admissible.as_ref()) {
+            Some((determinate, admissible)) => format!(
+                "{} determinate, {} admissible",
+                grouped(determinate),
+                grouped(admissible)
+            ),
+            None => "the true counts are not known".to_owned(),
+        };
         let best = format!("of the best {}", t.top);
         let heads = [
             "way",
             "right counts",
             "counting",
+            "decades, 95 %",
             &best,
             "naming them",
             "right variants",
         ];
         let rows = t.records.iter().map(row).collect();
+        let space = grouped(&t.space);
         // Writing to a string cannot fail.
-        let _ = write!(out, "\n{}\n\n", table(&heads, rows, width));
-        out += &fit(&format!("{}\n\n", notes(t)), width);
+        let _ = write!(
+            out,
+            "{}\n{}\n\n{}",
+            fit(
+                &format!("{}: {space} variants, {known}\n", t.mechanism),
+                width
+            ),
+            table(&heads, rows, width),
+            fit(&format!("{}\n\n", notes(t)), width)
+        );
     }
-    let times = if trials
+    let mut counted = trials
         .iter()
         .flat_map(|t| &t.records)
-        .any(|r| r.counting.is_some_and(|t| t.repeats > 1))
-    {
+        .filter_map(|r| r.counting);
+    let times = if counted.any(|t| t.repeats > 1) {
         "the median and the farthest from it"
     } else {
         "once"
     };
-    let clock = machine.time();
-    let when = USE_WHEN.join("\n");
+    let (when, clock) = (advice.join("\n"), machine.clock);
     out + &fit(
         &format!("{when}\n\nTimes are {clock}, {times}; on {machine}.\n"),
         width,
     )
 }
 
-fn trial_head(t: &Trial) -> String {
-    let space = grouped(&t.space);
-    match &t.found {
-        Some([determinate, admissible]) => format!(
-            "{}: {space} variants, {} determinate, {} admissible\n",
-            t.mechanism,
-            grouped(determinate),
-            grouped(admissible)
-        ),
-        None => format!(
-            "{}: {space} variants; the truth needs more --nodes, so that no counts are compared\n",
-            t.mechanism
-        ),
-    }
-}
-
 fn share(s: Share) -> String {
-    let of = |n: usize| grouped(n);
-    format!("{} of {}", of(s.right), of(s.of))
+    format!("{} of {}", grouped(s.right), grouped(s.of))
 }
 
 fn row(r: &Record) -> Vec<String> {
@@ -148,9 +81,11 @@ fn row(r: &Record) -> Vec<String> {
         r.way.to_string(),
         or_none(r.counts),
         time(r.counting),
+        r.bracket
+            .map_or_else(String::new, |b| brief(Bracket::decades(b.likely))),
         or_none(r.best),
         time(r.naming),
-        share(r.variants),
+        or_none(r.variants),
     ]
 }
 
@@ -165,11 +100,11 @@ fn spread(t: Timing) -> String {
 
 fn notes(t: &Trial) -> String {
     let mut notes = vec![wrong(t)];
-    if !t.whole {
+    if t.looked_at > 0 && !t.all_looked_at {
         notes.push(format!(
-            "Brute force examined {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
-             drawn at random: they give no counts, and their time is in proportion to all.",
-            grouped(t.looked)
+            "Brute force examined {} variants, half drawn from all and half from the admissible ones: it gives no counts, \
+             and its time is in proportion to all.",
+            grouped(t.looked_at)
         ));
     }
     notes.extend(ranking(t));
@@ -178,7 +113,6 @@ fn notes(t: &Trial) -> String {
 
 /// Returns a table of the methods on built-in mechanisms and on those from the seed, the machine it was made on, and a paragraph
 /// for each study.
-#[must_use]
 pub fn summary(
     [survey, generated]: [&Survey; 2],
     studies: &[Study],
@@ -214,9 +148,9 @@ pub fn summary(
         "\n\n{}\n",
         table(&heads, method_rows(survey, generated), width)
     );
-    let _ = write!(out, "\n{}. On {machine}.\n", repeated(survey));
+    let _ = write!(out, "\n{}. On {machine}.\n", survey.repeated());
     for study in studies {
-        let _ = write!(out, "\n{}: {}\n", study.title, study.conclusion());
+        let _ = write!(out, "\n{}: {}\n", study.texts.title, study.conclusion());
     }
     fit(&out, width)
 }

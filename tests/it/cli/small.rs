@@ -196,9 +196,7 @@ fn couplings_out_of_the_plane_are_left_out_and_said() {
     let shown = out(&["show", "four-bar"]);
     let hinge = "links = [\"1\", \"2\"]\ntype = \"revolute\"";
     let sliding = changed(&shown, hinge, &hinge.replace("revolute", "cylindrical"));
-    let coupled = format!(
-        "{sliding}\n[[coupling]]\njoints = [\"1-2:tz\", \"3-0\"]\nratio = 2\n"
-    );
+    let coupled = format!("{sliding}\n[[coupling]]\njoints = [\"1-2:tz\", \"3-0\"]\nratio = 2\n");
     let (_folder, file) = written("x.toml", coupled);
     for more in [&[][..], &["--method", "svd"], &["--method", "count-planar"]] {
         let args = [&["analyze", file, "--planar"], more].concat();

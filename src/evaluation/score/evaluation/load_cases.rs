@@ -92,14 +92,12 @@ fn free_is_loaded(m: &Mechanism) -> bool {
 }
 
 /// Whether the file loads any state.
-#[must_use]
 pub(crate) fn is_loaded(m: &Mechanism) -> bool {
     free_is_loaded(m) || m.state_ids().any(|s| grip_of(m, s).is_some())
 }
 
 /// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
 /// conditioned over or nothing else is loaded.
-#[must_use]
 pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
     let gripped = m.state_ids().skip(1).filter(|&s| grip_of(m, s).is_some());
     let gripped: Vec<StateId> = gripped.collect();

@@ -43,7 +43,6 @@ impl Evaluator<'_> {
     ///
     /// # Complexity
     /// Some hundred least squares problems of 3 joints × freedoms for each pose and output, the first time.
-    #[must_use]
     pub fn floor(&self) -> Floor {
         *self.floor.get_or_init(|| self.least())
     }
@@ -239,7 +238,6 @@ fn weighted_least(parts: &[AffineLoads], weights: &[f64]) -> Option<Vec<[f64; 3]
 /// A bound below the greatest |vector| / limit: for z = weight · vector at the least squares, Σ z · vector is the same for
 /// all that is open, and at most Σ |z| limit · peak.
 fn least_peak(parts: &[AffineLoads]) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     let mut share = vec![1.0 / parts.len().max(1) as f64; parts.len()];
     let mut best = 0.0;
     for _ in 0..STEPS {

@@ -59,10 +59,8 @@ pub struct Scores {
     pub minimum_norm: bool,
 }
 
-#[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
 impl Scores {
     /// The figure of a term as it is told: utilisations, a ratio, metres, counts.
-    #[must_use]
     pub fn value(&self, term: Term) -> f64 {
         match term {
             Term::PeakForce => self.force.utilisation,
@@ -77,7 +75,6 @@ impl Scores {
     }
 
     /// The joint that bears most, where the term is such a peak.
-    #[must_use]
     pub fn peak(&self, term: Term) -> Option<&Peak> {
         match term {
             Term::PeakForce => Some(&self.force),
@@ -87,7 +84,6 @@ impl Scores {
     }
 
     /// The figure as it stands in a list: what is measured to four decimals, lengths in millimetres.
-    #[must_use]
     pub fn cell(&self, term: Term) -> String {
         let (about, value) = (term.about(), self.value(term));
         if about.is_count {
@@ -100,7 +96,6 @@ impl Scores {
     /// What a term adds to a weighted sum, smaller being better: the figure, for conditioning minus its decimal logarithm,
     /// for the output error millimetres. What is measured counts to eleven digits: mirror images score alike, and
     /// rounding must not put one before the other.
-    #[must_use]
     pub fn loss(&self, term: Term) -> f64 {
         let coarse = |x: f64| f64::from_bits((x.to_bits() + 0x8000) & !0xffff);
         let about = term.about();
@@ -113,14 +108,12 @@ impl Scores {
     }
 
     /// Σ weight · loss.
-    #[must_use]
     pub fn weighted(&self, ranking: &Ranking) -> f64 {
         let terms = ranking.terms.iter();
         terms.map(|&(term, weight)| weight * self.loss(term)).sum()
     }
 
     /// Whether the figures are within all limits of a ranking.
-    #[must_use]
     pub fn within_limits(&self, ranking: &Ranking) -> bool {
         ranking.limits.iter().all(|l| {
             let x = self.value(l.term);
@@ -144,7 +137,6 @@ impl Scores {
 
 /// A point of each output link, in the file's unit: where the first force of the cases on it acts, else its mass centre, else
 /// its first joint.
-#[must_use]
 pub fn output_points(m: &Mechanism, cases: &Cases) -> Vec<(LinkId, [f64; 3])> {
     let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
     let each = outputs.filter_map(|l| {
@@ -227,7 +219,6 @@ pub struct Floor {
 
 impl Floor {
     /// Σ weight · bound over the terms but cost; those without a bound are at least 0.
-    #[must_use]
     pub fn weighted(&self, ranking: &Ranking) -> f64 {
         ranking.terms.iter().map(|&(t, w)| w * self.of(t)).sum()
     }

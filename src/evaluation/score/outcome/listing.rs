@@ -41,27 +41,23 @@ impl Request {
 impl Outcome {
     /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
     /// and second opinions are had in parallel.
-    #[must_use]
     pub fn variants(&self) -> Variants<'_> {
         self.variants_unless(&|| false)
     }
 
     /// The same until `cancelled`.
-    #[must_use]
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
         self.listed(request.list, request.distinct, request.seed, cancelled)
     }
 
     /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
-    #[must_use]
     pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         self.listed(self.request.list, true, self.request.seed, cancelled)
     }
 
     /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking, and more of the best than a search that does not count was
     /// asked for, take a search of their own.
-    #[must_use]
     pub fn list_unless<'o>(
         &'o self,
         list: List,
@@ -241,20 +237,17 @@ impl fmt::Debug for Variants<'_> {
 
 impl Variants<'_> {
     /// What second opinions and other poses say of those given so far.
-    #[must_use]
     pub fn summary(&self) -> Summary {
         self.summary
     }
 
     /// Whether the giving was cancelled.
-    #[must_use]
     pub fn interrupted(&self) -> bool {
         self.interrupted
     }
 
     /// Why the giving ended early, so far as it goes: it or the ranking was interrupted, or it would have taken more than the
     /// memory there is.
-    #[must_use]
     pub fn cut_short(&self) -> Option<Stop> {
         let ranking = self.outcome.ranking.as_ref();
         if self.interrupted || ranking.is_some_and(|r| r.interrupted) {
@@ -264,7 +257,6 @@ impl Variants<'_> {
     }
 
     /// Why this is not all that was asked for: the giving, or else the search.
-    #[must_use]
     pub fn stop(&self) -> Stop {
         self.cut_short().unwrap_or(self.outcome.stop)
     }

@@ -248,7 +248,6 @@ impl<'w> BranchAndBound<'w> {
     }
 
     /// The least sum of terms.
-    #[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
     fn sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
         let terms = self.ranking.terms.iter().map(|&(term, weight)| {
             let least = match term {

@@ -85,15 +85,12 @@ pub struct Missing {
 
 impl Missing {
     /// The cost from which on no variant can be among the list.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
     pub fn settled_at_cost(&self) -> f64 {
         self.settled_at as f64 / 1000.0
     }
 }
 
 /// Which of two comes first, the cheaper one where the order does not say.
-#[must_use]
 pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
         Order::Weighted => a
@@ -123,7 +120,6 @@ fn settled(
     floor: f64,
 ) -> Option<&'static str> {
     let last = list.last()?;
-    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
     let least = least_milli as f64 / 1000.0;
     match ranking.order {
         Order::Weighted => {
@@ -166,7 +162,6 @@ pub struct Ranker<'e, 's> {
 
 impl<'e, 's> Ranker<'e, 's> {
     /// For a pool of at most `limit` variants, of which the best `top` are wanted.
-    #[must_use]
     pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
         let floor = match ranking.order {
             Order::Weighted => evaluator.floor().weighted(ranking),
@@ -268,11 +263,6 @@ impl<'e, 's> Ranker<'e, 's> {
             return None;
         }
         let last = last.scores.weighted(ranking);
-        #[allow(
-            clippy::cast_precision_loss,
-            clippy::cast_possible_truncation,
-            reason = "costs are small"
-        )]
         let (reached, settled_at) = (
             self.reached as f64 / 1000.0,
             (1000.0 * (last - self.floor) / weight).ceil() as i64,
@@ -289,7 +279,6 @@ impl<'e, 's> Ranker<'e, 's> {
     ///
     /// # Complexity
     /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
-    #[must_use]
     pub fn finish(mut self, all: bool) -> RankedPool {
         if !self.block.is_empty() {
             self.score();
@@ -369,7 +358,6 @@ fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
 impl RankedPool {
     /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
     /// where its place is that by cost.
-    #[must_use]
     pub fn reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
         let (here, cheapest) = (
             self.list.get(rank.checked_sub(1)?)?,

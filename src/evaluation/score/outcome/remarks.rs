@@ -24,7 +24,6 @@ pub struct Remarks {
 
 impl Remarks {
     /// Returns the joint types that another request offers besides those of the one that found nothing.
-    #[must_use]
     pub fn offers<'r>(&'r self, asked: &Request) -> &'r [JointOptions] {
         let allow = self.offered.as_ref().map(|r| &r.allow[..]);
         allow.map_or(&[], |all| &all[asked.allow.len()..])
@@ -32,7 +31,6 @@ impl Remarks {
 }
 
 /// Returns a request with one condition eased.
-#[must_use]
 pub fn eased(request: &Request, how: Relaxation) -> Request {
     let mut out = request.clone();
     match how {

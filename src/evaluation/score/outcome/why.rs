@@ -88,7 +88,6 @@ pub struct Whys<'o> {
 
 impl<'o> Whys<'o> {
     /// Of an outcome.
-    #[must_use]
     pub fn new(outcome: &'o Outcome) -> Whys<'o> {
         let (search, m) = (&outcome.search, &outcome.search.mechanism);
         let closure = Closure::new(search.field(), m, StateId::FREE);
@@ -111,7 +110,6 @@ impl<'o> Whys<'o> {
     }
 
     /// Whether peaks are those of the side load of [`SIDE_LOAD`] on each output, along its hinges.
-    #[must_use]
     pub fn is_side_load(&self) -> bool {
         self.side.is_some()
     }
@@ -236,7 +234,6 @@ fn pressed_aside(m: &Mechanism) -> Mechanism {
         let mut hinges = own.iter().copied().chain(&joints);
         let hinge = hinges.find(|j| j.joint_type == JointType::Revolute);
         let across = hinge.map_or([0.0, 0.0, 1.0], |j| unit(real(&j.frame.axis)));
-        #[allow(clippy::cast_precision_loss, reason = "a few joints")]
         let many = own.len() as f64;
         let points = own.iter().map(|j| real(&j.frame.point));
         let sum = points.fold([0.0; 3], |s, p| [0, 1, 2].map(|i| s[i] + p[i] / many));

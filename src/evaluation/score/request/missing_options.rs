@@ -19,7 +19,6 @@ const OUTSIDE: f64 = 1e-6;
 impl Outcome {
     /// Returns the request with more joint types at some joints, where nothing was found and a search with these finds something:
     /// the cheapest freedoms that remove what is redundant and let nothing move, each in the cheapest type that has it.
-    #[must_use]
     pub fn would_help(&self) -> Option<Request> {
         let wider = self.widened(self.cheapest_freedoms()?);
         self.finds(&wider).then_some(wider)
