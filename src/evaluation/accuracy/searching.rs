@@ -79,18 +79,7 @@ pub fn trial(
         pool: Some(request.cheapest_scored()),
         ..request.clone()
     };
-    let mut trial = Trial {
-        mechanism: mechanism.name.clone(),
-        space: String::new(),
-        determinate: None,
-        admissible: None,
-        looked_at: 0,
-        all_looked_at: false,
-        top,
-        ranked_by_pool: None,
-        ranking_proven: None,
-        records: Vec::new(),
-    };
+    let mut trial = Trial::new(&mechanism.name, top);
     let mut found = None;
     let mut truth = None;
     if effort.looked > 0 {
@@ -117,28 +106,22 @@ pub fn trial(
         let (outcome, record) =
             by_budget(truth.as_ref(), way, mechanism, &way.request(&base), watch)?;
         trial.space = outcome.search.size().to_string();
-        let seconds = record.counting.map_or(0.0, |t| t.median);
         let exact = outcome.stop == Stop::Exhausted;
+        let slow = record.counting.is_some_and(|t| t.median > effort.patience);
         // Otherwise it is the whole diagram over one prime again.
         if !exact || n > 0 || truth.is_none() {
             trial.records.push(record);
         }
         if exact {
             found.get_or_insert([outcome.determinate.total, outcome.admissible.total]);
-            break;
         }
-        if seconds > effort.patience {
+        if exact || slow {
             break;
         }
     }
-    if let Some([_, admissible]) = &found {
-        let admissible = admissible.to_f64().unwrap_or(f64::INFINITY);
-        let brackets = trial.records.iter_mut().filter_map(|r| r.bracket.as_mut());
-        brackets
-            .for_each(|b| b.holds = Some(b.likely[0] <= admissible && admissible <= b.likely[1]));
+    if let Some(found) = found {
+        trial.judge_brackets(&found);
     }
-    let found = found.map(|f| f.map(|n| n.to_string()));
-    (trial.determinate, trial.admissible) = found.map(Into::into).unzip();
     Ok(trial)
 }
 

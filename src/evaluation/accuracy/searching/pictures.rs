@@ -73,9 +73,13 @@ fn add_to_brackets(study: &mut Study, trial: &Trial, record: &Record) {
     else {
         return;
     };
+    // An exact count says nothing about intervals.
+    let holds = bracket
+        .holds
+        .filter(|_| Bracket::decades(bracket.certain) > 0.0);
     let bounds = [
-        (String::new(), bracket.certain, None),
-        (", 95 %".to_owned(), bracket.likely, bracket.holds),
+        ("", bracket.certain, None),
+        (", 95 %", bracket.likely, holds),
     ];
     for (after, bounds, holds) in bounds {
         let tally = Tally {
@@ -87,7 +91,7 @@ fn add_to_brackets(study: &mut Study, trial: &Trial, record: &Record) {
             figure: Bracket::decades(bounds),
             ..Tally::default()
         };
-        study.add(&(trial.mechanism.clone() + &after), nodes as f64, tally);
+        study.add(&(trial.mechanism.clone() + after), nodes as f64, tally);
     }
 }
 

@@ -5,6 +5,8 @@ use crate::format::csv;
 use crate::rank::method::MobilityMethod;
 use crate::rank::numeric::Elimination;
 use crate::score::request::{Check, Request};
+use num_bigint::BigUint;
+use num_traits::ToPrimitive;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use std::fmt;
@@ -162,6 +164,35 @@ pub struct Trial {
     /// The results of each way.
     #[serde(skip)]
     pub records: Vec<Record>,
+}
+
+impl Trial {
+    /// Returns a trial without records.
+    pub(super) fn new(mechanism: &str, top: usize) -> Trial {
+        Trial {
+            mechanism: mechanism.to_owned(),
+            space: String::new(),
+            determinate: None,
+            admissible: None,
+            looked_at: 0,
+            all_looked_at: false,
+            top,
+            ranked_by_pool: None,
+            ranking_proven: None,
+            records: Vec::new(),
+        }
+    }
+
+    /// Takes the true numbers of determinate and of admissible variants, and judges each bracket by the second.
+    pub(super) fn judge_brackets(&mut self, [determinate, admissible]: &[BigUint; 2]) {
+        let truth = admissible.to_f64().unwrap_or(f64::INFINITY);
+        for bracket in self.records.iter_mut().filter_map(|r| r.bracket.as_mut()) {
+            let [least, most] = bracket.likely;
+            bracket.holds = Some(least <= truth && truth <= most);
+        }
+        self.determinate = Some(determinate.to_string());
+        self.admissible = Some(admissible.to_string());
+    }
 }
 
 /// Returns a row for each mechanism and way. The keys are a stable contract, in this order.
