@@ -64,7 +64,7 @@ pub(super) type Row = (String, Vec<(f64, Tally)>);
 /// The texts of a study.
 #[derive(Debug, Clone, Deserialize)]
 pub struct Texts {
-    /// What was varied.
+    /// The title.
     pub title: String,
     /// The axis across, with its unit.
     axis: String,
@@ -229,7 +229,7 @@ impl Study {
         .svg()
     }
 
-    /// Returns the points of each row over their times. Rows of several values are lines if they are figures of their own.
+    /// Returns the points of each row over their times. Own figures of several values are lines.
     fn against(&self, figure: Figure) -> Vec<Series> {
         let point = |t: &Tally| (t.time(), t.up(figure));
         let row = |(name, tallies): &Row| {

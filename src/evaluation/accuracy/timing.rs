@@ -105,13 +105,13 @@ impl Timing {
 pub struct Stopwatch {
     /// The clock.
     pub clock: Clock,
-    /// How often something is done at most; once at least.
+    /// The largest number of repetitions. There is at least one.
     pub repeat: usize,
 }
 
 impl Stopwatch {
-    /// Does something up to `repeat` times, after once that does not count where it is done more than once: what came of it
-    /// last, and how long each took.
+    /// Does something up to `repeat` times, and returns the last result with the times. If there are several, the first one does not
+    /// count.
     pub fn time<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
         let begun = (self.clock)();
         let mut times = Vec::new();

@@ -1,4 +1,4 @@
-//! What joint types bear and how much play they have.
+//! Capacities and clearances of joint types.
 
 use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use serde::Deserialize;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 const TEXT: &str = include_str!("joint_types.toml");
 
-/// What a joint bears.
+/// The capacities and the clearance of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointType {
@@ -64,7 +64,7 @@ impl JointTypes {
         self.by_name.get(name)
     }
 
-    /// What an option bears: by its own name, else by its type's.
+    /// Returns the values of an option by its own name, or by that of its type.
     pub fn option(&self, option: &JointOption) -> JointType {
         let bears_nothing = JointType {
             capacity_force: 1.0,

@@ -1,4 +1,4 @@
-//! What a search found: counts, how they were checked, and the variants one by one.
+//! Results of a search: counts, their checks, and the variants one by one.
 
 pub mod listing;
 pub mod pareto;
@@ -32,13 +32,13 @@ use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 
-/// What a search found.
+/// The results of a search.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Outcome {
     /// The search: the mechanism as it was searched, the conditions, the space.
     pub search: Search,
-    /// What was asked.
+    /// The request.
     pub request: Request,
     /// Counts by the redundancy condition of the free state.
     pub determinate: Counts,
@@ -53,7 +53,7 @@ pub struct Outcome {
     pub stop: Stop,
     /// Why the search for the determinate variants ended, which come first.
     pub determinate_stop: Stop,
-    /// What a second prime says; `None` where none was asked.
+    /// The comparison with a second prime; `None` if there was none.
     pub check: Option<PrimeCheck>,
     /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
     pub measured: Option<LooksRounded>,

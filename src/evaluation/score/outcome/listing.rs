@@ -132,7 +132,7 @@ impl Outcome {
         }
     }
 
-    /// A list of what the diagrams hold; nothing where there are none.
+    /// Returns a list from the diagrams, empty if there are none.
     fn by_diagrams(&self, list: List, distinct: bool, seed: u64) -> ListSource<'_> {
         let unranked = |v: Assignment| (v, None);
         let Some(d) = &self.diagrams else {

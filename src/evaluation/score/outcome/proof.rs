@@ -24,7 +24,7 @@ const DIVIDED: usize = 4096;
 /// Bounds are sums in another order than scores.
 const MARGIN: f64 = 1e-6;
 
-/// Nodes gone through at most: some half a minute on two cores.
+/// Largest number of visited nodes, about half a minute on two cores.
 const WORK: usize = 20_000_000;
 /// A variant scored whole takes as long as so many nodes.
 const SCORING: usize = 8;

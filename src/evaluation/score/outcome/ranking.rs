@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-/// Variants scored between two looks at the proof.
+/// Variants scored between two tests of the proof.
 const BLOCK: usize = 4096;
 
 /// A variant with its place in both orders.
@@ -38,13 +38,13 @@ pub struct Ranked {
 pub struct RankedPool {
     /// The best, in order.
     pub list: Vec<Ranked>,
-    /// What is ranked by.
+    /// The terms and their weights.
     pub ranking: Ranking,
     /// Most variants allowed in the pool.
     pub pool: usize,
     /// Variants of the pool scored.
     pub scored: usize,
-    /// Variants outside of the pool scored, where the others were gone through by bounds, as far as that was done.
+    /// Number of scored variants outside of the pool, if these were searched with bounds.
     pub elsewhere: Option<usize>,
     /// Those whose loads have no equilibrium.
     pub unheld: usize,
@@ -58,11 +58,11 @@ pub struct RankedPool {
     pub proof: &'static str,
     /// Whether scoring was cancelled.
     pub interrupted: bool,
-    /// What is missing to a proof, where the order is by a weighted sum in which cost counts.
+    /// The gap to a proof, if the order is a weighted sum with cost.
     pub missing: Option<Missing>,
     /// The cheapest that could be scored, as a measure for the others.
     pub cheapest: Option<Ranked>,
-    /// Poses looked at.
+    /// Number of examined poses.
     pub poses: usize,
     /// The parts whose contact forces are among the loads.
     pub gripped: Vec<Gripped>,
@@ -70,7 +70,7 @@ pub struct RankedPool {
     pub stroke_stopped: Option<f64>,
 }
 
-/// What is missing to the proof that a pool holds the best.
+/// The gap to a proof that a pool holds the best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Missing {
     /// No variant that was not scored has a lower sum.
@@ -254,7 +254,7 @@ impl<'e, 's> Ranker<'e, 's> {
         self.kept.truncate(top);
     }
 
-    /// What is missing to a proof.
+    /// Returns the gap to a proof.
     fn missing(&self) -> Option<Missing> {
         let ranking = &self.out.ranking;
         let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
@@ -319,7 +319,7 @@ fn ordinal(n: usize) -> String {
     format!("{n}{end}")
 }
 
-/// What a term came from and went to, in words.
+/// Returns the change of a term in words.
 fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
     let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
     match term {

@@ -27,7 +27,7 @@ pub struct Change {
     pub joint: JointId,
     /// The present option, by name.
     pub from: String,
-    /// What is put there.
+    /// The new type.
     pub to: String,
 }
 
@@ -53,12 +53,12 @@ impl<'o> Variant<'o> {
         self.position
     }
 
-    /// What it chooses: an option for each variable of the space, and its properties as the diagram counts them.
+    /// Returns its choice for each variable of the space, and its properties in the diagram.
     pub fn assignment(&self) -> &Assignment {
         &self.certified.variant
     }
 
-    /// What it stands for, where only the first variant of each idea is given.
+    /// Returns its idea, if the list has only the first variant of each idea.
     pub fn idea(&self) -> Option<&Idea> {
         self.idea.as_ref()
     }
@@ -86,7 +86,7 @@ impl<'o> Variant<'o> {
         self.assignment().key.internal()
     }
 
-    /// Redundant constraints that the searched state adds; `None` where none was searched.
+    /// Returns the number of redundant constraints that the searched state adds; `None` without such a state.
     pub fn external_redundant(&self) -> Option<i32> {
         let searched = self.outcome.search.conditions.state;
         searched.map(|_| self.assignment().key.external())
@@ -103,27 +103,27 @@ impl<'o> Variant<'o> {
         self.assignment().key.changes()
     }
 
-    /// The joints it changes, in file order.
+    /// Returns the joints that it changes, in file order.
     pub fn changes(&self) -> Vec<Change> {
         changes(&self.outcome.search, self.assignment())
     }
 
-    /// What singular values say of it.
+    /// Returns the second opinion by singular values.
     pub fn second(&self) -> &Second {
         &self.certified.second
     }
 
-    /// What other poses say of it, where that was asked.
+    /// Returns the results in other poses, if they were asked for.
     pub fn over_stroke(&self) -> Option<&OverStroke> {
         self.certified.stroke.as_ref()
     }
 
-    /// Whether other poses were looked at and give other figures.
+    /// Returns whether other poses were examined and give other figures.
     pub fn lucky(&self) -> bool {
         self.certified.lucky()
     }
 
-    /// What the ranking knows of it, where there is one.
+    /// Returns its entry in the ranking, if there is one.
     pub fn ranked(&self) -> Option<&'o Ranked> {
         self.outcome.ranking.as_ref()?.list.get(self.place?)
     }
@@ -145,16 +145,16 @@ impl<'o> Variant<'o> {
         format!("{one} {}", self.position)
     }
 
-    /// The variant as a mechanism of its own, named for its place in the list.
+    /// Returns the variant as a mechanism, named after its place in the list.
     pub fn mechanism(&self) -> Mechanism {
         mechanism(&self.outcome.search, self.assignment(), &self.name())
     }
 
     /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
-    /// whose own contours come last, or of the free one. Nothing where no contour has any.
+    /// whose own contours come last, or of the free one. Empty if no contour has any.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field of the search.
+    /// Returns an error if a coordinate has no value in the field of the search.
     ///
     /// # Complexity
     /// Some eliminations of J for each call.
@@ -193,7 +193,7 @@ impl fmt::Display for Variant<'_> {
     }
 }
 
-/// A choice of options as a mechanism of its own, named for its place in a list: "variant 3".
+/// Returns a choice of options as a mechanism, named after its place in a list: "variant 3".
 pub fn mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
     let mut out = variant_mechanism::realize(search, &assignment.choices);
     out.description = format!(
