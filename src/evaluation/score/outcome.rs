@@ -55,14 +55,14 @@ pub struct Outcome {
     pub determinate_stop: Stop,
     /// The comparison with a second prime; `None` if there was none.
     pub check: Option<PrimeCheck>,
-    /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
+    /// Why the geometry looks measured, with the verdicts on the original mechanism; `None` if it looks exact.
     pub measured: Option<LooksRounded>,
-    /// Other poses of the present motion; `None` where none were asked for.
+    /// Other poses of the original motion; `None` if none were asked for.
     pub stroke: Option<Stroke>,
-    /// The ranking under a workload; `None` where the order is that of cost.
+    /// The ranking under a workload; `None` if the order is that of cost.
     pub ranking: Option<RankedPool>,
-    /// What singular values say, where the mechanism that is meant is not there for exact arithmetic; counts are then those of
-    /// the variants that are sure.
+    /// The results by singular values, if exact arithmetic cannot represent the mechanism that is meant. Counts are then those of the
+    /// variants that are sure.
     pub numeric: Option<AtTolerance>,
     /// What singular values say of the counts, where coordinates look rounded and exact arithmetic counted all the same.
     pub second: Option<SecondOpinion>,
@@ -121,19 +121,18 @@ impl Outcome {
         }
     }
 
-    /// Returns the counts of the variants that are listed: those that keep the motion throughout, where that is known, or else the
-    /// admissible ones.
+    /// Returns the counts of the listed variants: those that keep the motion throughout, or the admissible ones if these are not known.
     pub fn listed_counts(&self) -> &Counts {
         self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
-    /// Whether everything was looked at in exact arithmetic, and singular values do not contradict it where coordinates look
-    /// rounded, so that counts are exact and the list is the best there is.
+    /// Returns whether exact arithmetic examined everything, and singular values do not contradict it if coordinates look rounded. Counts
+    /// are then exact, and no list is better.
     pub fn is_exact(&self) -> bool {
         self.is_counted() && self.is_confirmed()
     }
 
-    /// Whether exact arithmetic looked at everything, be its answer right or not.
+    /// Returns whether exact arithmetic examined everything, regardless of rounded coordinates.
     pub fn is_counted(&self) -> bool {
         self.stop == Stop::Exhausted && self.numeric.is_none()
     }
@@ -148,7 +147,7 @@ impl Outcome {
         self.numeric.as_ref().is_some_and(AtTolerance::is_whole)
     }
 
-    /// Whether there may be admissible variants beside those counted, which singular values do not decide.
+    /// Returns whether there may be more admissible variants, because singular values do not decide some.
     pub fn admissible_may_be_more(&self) -> bool {
         let found = self.numeric.as_ref();
         found.is_some_and(|f| !f.admissible.is_narrow())
@@ -159,7 +158,7 @@ impl Outcome {
         self.is_determinate_counted() && self.is_confirmed()
     }
 
-    /// Whether exact arithmetic looked at all that may be determinate, be its answer right or not.
+    /// Returns whether exact arithmetic examined all that may be determinate, regardless of rounded coordinates.
     pub fn is_determinate_counted(&self) -> bool {
         self.determinate_stop == Stop::Exhausted && self.numeric.is_none()
     }
@@ -177,7 +176,7 @@ impl Outcome {
         [0, 1].map(|i| found.and_then(|d| d.estimates[i].as_ref()))
     }
 
-    /// How many of the admissible variants are minimal: no other of them has part of their freedoms. `None` where that is not
+    /// Returns the number of minimal admissible variants: no other one has only a part of their freedoms. Returns `None` if it is not
     /// known exactly: the search ended early or is numeric, orbits are counted, or it takes too many nodes.
     ///
     /// # Complexity
@@ -217,7 +216,7 @@ impl Outcome {
     /// end. If some variants keep the motion in the drawn pose only, returns these.
     ///
     /// # Errors
-    /// Where the geometry has no exact image.
+    /// Returns an error if the geometry has no exact image.
     ///
     /// # Complexity
     /// A search for each condition and each step of easing it, none of more than some thousand nodes.
@@ -237,10 +236,10 @@ impl Outcome {
         why_none::relaxations(&self.search, nodes, cancelled)
     }
 
-    /// What stands in the way of every variant, where nothing was found.
+    /// Returns the reasons that exclude every variant, if nothing was found.
     ///
     /// # Errors
-    /// Where the geometry has no exact image.
+    /// Returns an error if the geometry has no exact image.
     pub fn hopeless(&self) -> Result<Hopeless, SearchError> {
         if self.numeric.is_some() || !self.admissible.total.is_zero() {
             return Ok(Hopeless::default());

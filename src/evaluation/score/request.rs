@@ -137,14 +137,14 @@ pub struct Request {
     pub hold: Vec<String>,
     /// Unloading joints offered besides those of the file.
     pub unloading: Vec<Inserts>,
-    /// The options used everywhere, by name; all of the file where there are none. Joint types that the file does not list are
+    /// The options used everywhere, by name. Empty means all of the file. Joint types that the file does not list are
     /// offered in the joints' own frames.
     pub options: Vec<String>,
     /// Options allowed at single joints.
     pub allow: Vec<JointOptions>,
     /// Options forbidden at single joints.
     pub forbid: Vec<JointOptions>,
-    /// Costs in place of the file's and the defaults; what stands at an option of the file stays.
+    /// Costs instead of the file's and the defaults. A cost at an option of the file remains.
     pub costs: Option<CostFile>,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
@@ -162,8 +162,8 @@ pub struct Request {
     /// Terms to rank by with their weights, in place of the file's.
     #[serde(deserialize_with = "words::weighted_terms")]
     pub rank: Vec<(Term, f64)>,
-    /// How many of the cheapest variants a ranking scores, and no others. `None`: [`POOL`], and then whatever else could come
-    /// before the last of the list.
+    /// How many of the cheapest variants a ranking scores, and no others. `None` is [`POOL`] and then all others that could come before
+    /// the last of the list.
     pub pool: Option<usize>,
     /// Which variants are given. In JSON it is `top`, a number.
     #[serde(rename = "top", deserialize_with = "best")]

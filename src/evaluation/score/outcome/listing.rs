@@ -19,7 +19,7 @@ use num_traits::Zero;
 use std::fmt;
 
 impl Request {
-    /// How many of the cheapest variants are looked at, to give the list that is asked for; 0 where it takes all, or none.
+    /// Returns how many of the cheapest variants the requested list needs; 0 if it needs all, or none.
     pub(in crate::score) fn cheapest(&self, mechanism: &Mechanism) -> Result<usize, RequestError> {
         let List::Top(top) = self.list else {
             return Ok(0);
@@ -56,8 +56,8 @@ impl Outcome {
         self.listed(self.request.list, true, self.request.seed, cancelled)
     }
 
-    /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking, and more of the best than a search that does not count was
-    /// asked for, take a search of their own.
+    /// Returns another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking need
+    /// another search, and so do more of the best than a search without counts was asked for.
     pub fn list_unless<'o>(
         &'o self,
         list: List,
@@ -167,7 +167,7 @@ impl Outcome {
     }
 }
 
-/// How many variants a list has at most.
+/// Returns the largest length of a list.
 fn most(list: List) -> usize {
     match list {
         List::Top(k) => k,
@@ -176,11 +176,11 @@ fn most(list: List) -> usize {
     }
 }
 
-/// What a list is drawn from.
+/// The source of a list.
 struct ListSource<'o> {
-    /// Variants, with their places in the ranking where there is one.
+    /// Variants, with their places in the ranking if there is one.
     variants: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
-    /// What each stands for, where only the first of each idea is given.
+    /// The idea of each, if only the first variant of each idea is listed.
     ideas: Vec<Idea>,
 }
 
@@ -209,15 +209,15 @@ pub struct Variants<'o> {
     outcome: &'o Outcome,
     list: List,
     cancelled: ShouldCancel<'o>,
-    /// Variants, with their places in the ranking where there is one.
+    /// Variants, with their places in the ranking if there is one.
     source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
     /// Whether second opinions are wanted of those to come.
     opinions: bool,
-    /// The poses that those to come are looked at in.
+    /// The poses in which the next ones are examined.
     stroke: Option<&'o Stroke>,
-    /// Looked at, and not given yet.
+    /// Examined, and not given yet.
     ready: std::vec::IntoIter<(Certified, Option<usize>)>,
-    /// What each stands for, where only the first of each idea is given.
+    /// The idea of each, if only the first variant of each idea is listed.
     ideas: Vec<Idea>,
     distinct: bool,
     /// How many more may be given.
@@ -261,7 +261,7 @@ impl Variants<'_> {
         self.cut_short().unwrap_or(self.outcome.stop)
     }
 
-    /// Whether fewer came than there are, though none was left out on purpose.
+    /// Returns whether fewer came than there are, although none was omitted on purpose.
     fn is_short(&self) -> bool {
         let (o, given) = (self.outcome, self.summary.given);
         let due = match self.list {
@@ -276,7 +276,7 @@ impl Variants<'_> {
         counted && !self.distinct && due > given.into()
     }
 
-    /// What a variant stands for, where only the first of each idea is given.
+    /// Returns the idea of a variant, if only the first variant of each idea is listed.
     fn idea(&self, of: &Certified) -> Option<Idea> {
         self.ideas.iter().find(|i| i.first == of.variant).cloned()
     }

@@ -31,7 +31,7 @@ pub struct SymmetricRedesign {
 /// The cheapest symmetric redesigns.
 #[derive(Debug)]
 pub struct SymmetricBest {
-    /// For 0, 1 and 2 redundant constraints left the cheapest, where there is one and it could be found.
+    /// The cheapest with 0, 1 and 2 remaining redundant constraints, if one was found.
     pub best: Vec<SymmetricRedesign>,
     /// Why no symmetric redesign leaves no redundant constraint and adds no idle motion; `None` where one does, or the reason is another.
     pub odd: Option<OddFreedoms>,
