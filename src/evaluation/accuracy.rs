@@ -7,11 +7,11 @@
 pub(crate) mod cases;
 pub mod change;
 pub mod lattice;
-pub mod pictures;
 pub mod said;
 pub mod searching;
 pub mod special;
 pub mod stability;
+pub mod study;
 pub mod survey;
 pub mod timing;
 
@@ -39,7 +39,7 @@ impl Truth {
     }
 }
 
-/// What an answer is worth.
+/// A verdict on an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnswerVerdict {
     /// The finite mobility.
@@ -56,7 +56,6 @@ pub enum AnswerVerdict {
 
 impl AnswerVerdict {
     /// The verdict on an answer.
-    #[must_use]
     pub fn on(answer: &Result<Answer, NoAnswer>, truth: Truth) -> AnswerVerdict {
         match answer {
             Ok(a) if a.mobility == truth.finite => AnswerVerdict::Right,
@@ -71,7 +70,6 @@ impl AnswerVerdict {
 
     /// Whether the answer is the one the method promises: the finite mobility, or the one at the pose where that is what
     /// it speaks of.
-    #[must_use]
     pub(crate) fn keeps_promise(answer: &Result<Answer, NoAnswer>, truth: Truth) -> bool {
         answer.as_ref().is_ok_and(|a| match a.quantity {
             Quantity::Instantaneous => a.mobility == truth.instantaneous,
@@ -80,7 +78,6 @@ impl AnswerVerdict {
     }
 
     /// One word for programs.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             AnswerVerdict::Right => "right",

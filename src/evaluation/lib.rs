@@ -1,4 +1,4 @@
-//! What is made of many analyses and searches: scores and orders under a workload, and how right and how fast the methods are.
+//! Results of many analyses and searches: scores and rankings under a workload, and the accuracy and speed of the methods.
 
 use ozols_files::file;
 use ozols_forces::{grip, statics};

@@ -2,17 +2,17 @@
 //!
 //! # Scores
 //!
-//! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. What the joints bear, how
-//! well conditioned the equations are and what clearances do to the outputs does not add up; it is computed variant by
+//! The cost of a variant adds up joint by joint, so the diagram gives variants in its order. Loads of joints, conditioning of the
+//! equations and effects of clearances on the outputs do not add up. They are computed variant by
 //! variant ([`evaluate`](evaluation::evaluate)) for a pool of the cheapest, and [`ranking`](outcome::ranking) says whether
-//! a variant outside of the pool could still win. What it is computed for, the poses of the stroke under the file's loads
-//! and the parts that a grip holds, is in [`load_cases`](evaluation::load_cases).
+//! a variant outside of the pool could still win. The poses of the stroke under the file's loads
+//! and the parts that a grip holds are in [`load_cases`](evaluation::load_cases).
 //!
 //! # Speed
 //!
-//! The motion of a variant is that of the mechanism as it is, so the poses, the twists of every option, their powers on the
-//! loads sent along the spanning tree and their Gram matrices are computed once. What is left for a variant of the ten-link
-//! gripper is to copy some 24 rows of 24 + 7 numbers, one elimination with seven right sides (the loads, and a unit force
+//! A variant moves as the original mechanism does, so the poses, the twists of every option, their powers on the
+//! loads sent along the spanning tree and their Gram matrices are computed once. A variant of the ten-link
+//! gripper then needs copies of some 24 rows of 24 + 7 numbers, one elimination with seven right sides (the loads, and a unit force
 //! along each axis on each jaw), 13 sums of wrenches and the two ends of a spectrum of 24 values.
 //!
 //! `cargo bench --bench score` gives variants a second on one and two threads. `ozols search gripper-10-loaded --pool
@@ -25,9 +25,9 @@
 //!
 //! Variants come in order of cost and no more than a block of them is held, so a pool may be as large as the space. It
 //! ends early once cost and the [`lower_bound`](evaluation::lower_bound) of the other terms put all later ones behind.
-//! Conditioning has no bound but 0, nor has the peak moment where every joint may be exchanged for one that bears none. Where
-//! that does not put them behind, the variants outside of the pool are gone through by branch and bound over the diagram: equations
-//! are those of what is chosen so far, and once they determine the reactions, peaks and error are bounds for all that begins so.
+//! Conditioning has no bound but 0, nor has the peak moment where every joint may be exchanged for one that bears none. If
+//! that does not exclude them, a branch and bound over the diagram searches the variants outside of the pool. Its equations are those
+//! of the choices so far. Once they determine the reactions, peaks and error are bounds for the whole branch.
 
 pub mod evaluation;
 pub mod joint_types;

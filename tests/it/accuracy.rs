@@ -3,7 +3,6 @@
 use crate::common::*;
 use ozols::accuracy::AnswerVerdict;
 use ozols::accuracy::lattice::toggles;
-use ozols::accuracy::pictures;
 use ozols::accuracy::special::SpecialKind;
 use ozols::accuracy::survey::{Reply, Survey, cases, generated};
 use ozols::accuracy::timing::Stopwatch;
@@ -203,24 +202,6 @@ fn errors_fall_with_the_prime(csv: &[Vec<String>]) {
     assert_eq!(wrong("6.1e1"), 0);
     let all = csv[1..].iter().filter(|r| r[1] == "6.1e1");
     assert!(all.clone().count() == 2 && all.clone().all(|r| r[6] == "0"));
-}
-
-#[test]
-fn the_front_has_nobody_that_another_beats() {
-    let places = pictures::places(&SURVEY);
-    let front = pictures::pareto(&places);
-    let beats = |a: &pictures::MethodPlace, b: &pictures::MethodPlace| {
-        a.seconds <= b.seconds && a.share >= b.share && (a.seconds < b.seconds || a.share > b.share)
-    };
-    for p in &places {
-        let beaten = places.iter().any(|q| beats(q, p));
-        let on = front.iter().any(|q| q.name == p.name);
-        // Of equal ones one is enough.
-        let equal = front
-            .iter()
-            .any(|q| (q.seconds, q.share) == (p.seconds, p.share));
-        assert!(if beaten { !on } else { equal }, "{}", p.name);
-    }
 }
 
 /// The figures of what is made from a seed follow from its construction; what is decided about it agrees.

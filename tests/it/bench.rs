@@ -2,10 +2,12 @@
 
 use crate::common::*;
 use ozols::Mechanism;
-use ozols::accuracy::searching::record::{Record, Trial};
-use ozols::accuracy::searching::search_method::Way;
+use ozols::accuracy::lattice::lift;
+use ozols::accuracy::searching::record::{self, Bracket, Record, Share, Trial, Way};
 use ozols::accuracy::searching::{MECHANISMS, TrialEffort, pictures, trial};
-use ozols::accuracy::timing::{Machine, Stopwatch};
+use ozols::accuracy::study;
+use ozols::accuracy::timing::Stopwatch;
+use ozols::file::text::mechanism_from_str;
 use ozols::rank::numeric::Elimination;
 use ozols::score::request::{Check, List, Request};
 use ozols::search::check::brute::{Matrices, Seen};
@@ -17,6 +19,7 @@ use std::time::Duration;
 const EFFORT: TrialEffort = TrialEffort {
     looked: 400,
     pool: Some(2_000),
+    patience: f64::INFINITY,
 };
 
 /// A trial by a clock that stands still: verdicts do not depend on it.
@@ -37,8 +40,14 @@ fn of(trial: &Trial, way: Way) -> &Record {
     trial.records.iter().find(|r| r.way == way).unwrap()
 }
 
-fn is_right(share: ozols::accuracy::searching::record::Share) -> bool {
+fn is_right(share: Share) -> bool {
     share.right == share.of
+}
+
+/// The records of budgets that were too small.
+fn stopped(trial: &Trial) -> impl Iterator<Item = &Record> {
+    let wide = |r: &&Record| r.bracket.is_some_and(|b| Bracket::decades(b.certain) > 0.0);
+    trial.records.iter().filter(wide)
 }
 
 const CHECKS: [Check; 3] = [Check::None, Check::Prime, Check::Full];
@@ -50,9 +59,9 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
         let looking = [Way::Pruned, Way::Brute];
         for way in CHECKS.map(Way::Diagram).into_iter().chain(looking) {
             let r = of(&t, way);
-            assert!(is_right(r.variants), "{name}, {way}");
+            assert!(is_right(r.variants.unwrap()), "{name}, {way}");
             // Looking at a sample gives no counts and names no best.
-            let gives = matches!(way, Way::Diagram(_)) || t.whole;
+            let gives = matches!(way, Way::Diagram(_)) || t.all_looked_at;
             let counts = gives && way != Way::Diagram(Check::Full);
             assert_eq!(
                 r.counts.map(is_right),
@@ -61,14 +70,21 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
             );
             assert_eq!(r.best.map(is_right), gives.then_some(true), "{name}, {way}");
             assert_eq!(r.naming.is_some(), gives, "{name}, {way}");
-            assert_eq!(r.by_proportion, looking.contains(&way) && !t.whole);
+            assert_eq!(r.by_proportion, looking.contains(&way) && !t.all_looked_at);
         }
-        let cut = t.records.iter().filter(|r| matches!(r.way, Way::Nodes(_)));
-        let cut: Vec<_> = cut.collect();
+        let cut: Vec<_> = stopped(&t).collect();
         assert!(name != "gripper-10" || !cut.is_empty());
         for r in cut {
             assert!(!is_right(r.counts.unwrap()), "{}", r.way);
-            assert!(!is_right(r.variants), "{}", r.way);
+            assert!(!is_right(r.variants.unwrap()), "{}", r.way);
+            let Bracket {
+                certain,
+                likely,
+                holds,
+            } = r.bracket.unwrap();
+            let truth: f64 = t.admissible.as_ref().unwrap().parse().unwrap();
+            assert!(certain[0] <= truth && truth <= certain[1], "{}", r.way);
+            assert_eq!(holds, Some(likely[0] <= truth && truth <= likely[1]));
         }
     }
 }
@@ -77,13 +93,18 @@ fn exact_ways_are_right_and_cut_ones_are_not() {
 #[test]
 fn the_truth_is_what_is_known() {
     let t = trial_of("gripper-10");
-    let known = [6_340_592_477_u64, 25_761_436].map(BigUint::from);
-    assert_eq!(t.found, Some(known));
-    assert!(!t.whole && t.looked == 400 && t.ranked.is_none());
+    let found = |t: &Trial| {
+        [
+            t.determinate.clone().unwrap(),
+            t.admissible.clone().unwrap(),
+        ]
+    };
+    assert_eq!(found(&t), ["6340592477", "25761436"]);
+    assert!(!t.all_looked_at && t.looked_at == 400 && t.ranked_by_pool.is_none());
     let t = trial_of("goldberg-5r");
     let counts = json("search goldberg-5r --method brute --format json");
-    let known = ["determinate", "admissible"].map(|k| BigUint::from(count(&counts[k])));
-    assert_eq!((t.whole, t.found), (true, Some(known)));
+    let known = ["determinate", "admissible"].map(|k| count(&counts[k]).to_string());
+    assert_eq!((t.all_looked_at, found(&t)), (true, known));
 }
 
 /// Coupled joints, the plane, and contacts with unloading joints: double precision finds what each variant, built as a
@@ -130,11 +151,13 @@ fn floating_point_is_wrong_about_a_hair() {
         ..Request::default()
     };
     let t = tried(&off, &request, EFFORT);
-    assert!(is_right(of(&t, Way::Diagram(Check::None)).variants));
-    assert!(is_right(of(&t, Way::Brute).variants));
+    assert!(is_right(
+        of(&t, Way::Diagram(Check::None)).variants.unwrap()
+    ));
+    assert!(is_right(of(&t, Way::Brute).variants.unwrap()));
     for e in Elimination::ALL {
         let r = of(&t, Way::Float(e));
-        assert!(r.variants.right < r.variants.of, "{e:?}");
+        assert!(!is_right(r.variants.unwrap()), "{e:?}");
         assert!(!is_right(r.counts.unwrap()), "{e:?}");
     }
     let said = pictures::wrong(&t);
@@ -145,16 +168,23 @@ fn floating_point_is_wrong_about_a_hair() {
 #[test]
 fn the_best_are_judged_by_a_proven_pool_alone() {
     let t = trial_of("gripper-10-loaded");
-    assert_eq!(t.ranked, Some((2_000, false)));
+    assert_eq!(
+        (t.ranked_by_pool, t.ranking_proven),
+        (Some(2_000), Some(false))
+    );
     assert!(t.records.iter().all(|r| r.best.is_none()));
     let said = pictures::ranking(&t).unwrap();
     assert!(said.contains("are not judged"), "{said}");
     // Ranking takes time of its own, and counting none of it.
-    let pool = of(&t, Way::Pool(1000));
+    let pool = of(&t, Way::Pool(Some(1000)));
     assert!(pool.naming.is_some() && pool.counting.is_none() && pool.counts.is_none());
     let small = trial_of("lever-gripper");
-    assert_eq!(small.ranked, Some((305, true)), "all were scored");
-    let shares = [10, 100].map(|n| of(&small, Way::Pool(n)).best.unwrap().right);
+    assert_eq!(
+        (small.ranked_by_pool, small.ranking_proven),
+        (Some(305), Some(true)),
+        "all were scored"
+    );
+    let shares = [10, 100].map(|n| of(&small, Way::Pool(Some(n))).best.unwrap().right);
     assert!(shares.is_sorted(), "{shares:?}");
     // Looking at variants ranks nothing.
     assert!(of(&small, Way::Brute).best.is_none());
@@ -221,80 +251,76 @@ fn what_prunes_loses_nothing() {
     }
 }
 
-/// One chart has every kind of way, and another the bracket of each search that is stopped.
+/// The studies of some trials, by name, with their tables and charts.
+fn studied(trials: &[Trial]) -> Vec<(String, String)> {
+    let studies = pictures::studies(trials, ["take it", "raise it", "leave it"]);
+    study::files(
+        "Searches",
+        "by hand",
+        &studies,
+        vec![("searches.csv".to_owned(), record::csv(trials))],
+    )
+}
+
+/// One chart has every kind of way, another the bounds that each budget gives, and a third what pools miss.
 #[test]
-fn charts_show_every_kind_of_way_and_the_brackets() {
-    let trials = [trial_of("gripper-10"), trial_of("four-bar")];
-    let overview = pictures::overview(&trials, &machine());
-    let names: Vec<&str> = overview.series.iter().map(|s| s.name.as_str()).collect();
-    assert_eq!(names.len(), 5, "{names:?}");
+fn charts_show_every_kind_of_way_the_brackets_and_the_pools() {
+    let trials = [trial_of("gripper-10"), trial_of("lever-gripper")];
+    let files = studied(&trials);
+    assert_eq!(files, studied(&trials));
+    let names: Vec<&str> = files.iter().map(|f| f.0.as_str()).collect();
+    let charts = ["overview", "brackets", "rankings"];
+    let of = charts
+        .iter()
+        .flat_map(|c| [format!("{c}.csv"), format!("{c}.svg")]);
+    let all = ["searches.csv".to_owned()]
+        .into_iter()
+        .chain(of)
+        .chain(["index.html".to_owned()]);
+    assert_eq!(names, all.collect::<Vec<_>>());
+    let text = |name: &str| &files.iter().find(|f| f.0 == name).unwrap().1;
+    for chart in charts {
+        let svg = text(&format!("{chart}.svg"));
+        roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{chart}: {e}"));
+    }
+    for kind in [
+        "whole diagram",
+        "stopped early",
+        "ranked",
+        "pruned",
+        "brute force",
+    ] {
+        assert!(text("overview.csv").contains(kind), "{kind}");
+    }
     // What is never wrong stands at zero, on an axis by decades.
-    assert!(overview.svg().contains(">0</text>"));
-    let brackets = pictures::brackets(&trials, &machine()).unwrap();
-    let mut series = brackets.series.iter();
-    let gripper = series.find(|s| s.name == "gripper-10").unwrap();
-    let known = 6_340_592_477.0;
-    assert!(!gripper.points.is_empty() && gripper.points.iter().all(|p| p.1 > 0.0));
-    for nodes in stopped(&trials[0]) {
-        let found = ozols::search(
-            &built_in("gripper-10"),
-            &Request {
-                nodes,
-                ..Request::default()
-            },
-        );
-        let found = found.unwrap();
-        let estimate = found.estimates()[0].unwrap();
-        // An interval of 95 % is missed now and then, but not by far.
-        let [least, most] = estimate.between;
-        assert!(least * 0.9 <= known && known <= most * 1.1, "{estimate:?}");
-    }
-}
-
-/// The budgets of the searches that are stopped.
-fn stopped(trial: &Trial) -> impl Iterator<Item = usize> + '_ {
-    trial.records.iter().filter_map(|r| match r.way {
-        Way::Nodes(nodes) if r.bracket.is_some() => Some(nodes),
-        _ => None,
-    })
-}
-
-fn machine() -> Machine {
-    Machine {
-        processor: "Abacus".to_owned(),
-        threads: 2,
-        cores: 3,
-        memory: Some(4_000_000_000),
-        system: "wood".to_owned(),
-        optimised: true,
-        processor_time: true,
-    }
-}
-
-#[test]
-fn pictures_show_every_way_and_the_machine() {
-    let machine = machine();
-    let trials = [trial_of("four-bar"), trial_of("lever-gripper")];
-    let files = pictures::files(&trials, &machine, "by hand");
-    assert_eq!(files, pictures::files(&trials, &machine, "by hand"));
-    let svgs: Vec<_> = files.iter().filter(|f| f.0.ends_with(".svg")).collect();
-    // One has the brackets of searches that are stopped.
-    let is_stopped = trials.iter().any(|t| stopped(t).next().is_some());
-    assert_eq!(svgs.len(), 1 + usize::from(is_stopped));
-    for (name, svg) in svgs {
-        roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert!(text("overview.svg").contains(">0</text>"));
+    for row in ["gripper-10,1e3", "\"gripper-10, 95 %\",1e3"] {
         assert!(
-            svg.contains("Abacus, 2 of 3 cores, 4 GB, wood; ozols"),
-            "{name}"
+            text("brackets.csv").contains(row),
+            "{}",
+            text("brackets.csv")
         );
     }
-    let (name, page) = files.last().unwrap();
-    assert_eq!(name, "index.html");
-    for part in ["by hand", "never wrong", "--pool", "lever-gripper: "] {
-        assert!(page.contains(part), "{part}");
+    assert!(text("rankings.csv").contains("lever-gripper,1e1"));
+    for part in ["by hand", "never wrong", "raise it", "lever-gripper: "] {
+        assert!(text("index.html").contains(part), "{part}");
     }
     let rows = trials.iter().map(|t| t.records.len()).sum::<usize>();
-    assert_eq!(files[0].1.lines().count(), 1 + rows);
+    assert_eq!(text("searches.csv").lines().count(), 1 + rows);
+}
+
+/// A mechanism that is too large for the whole diagram is searched with budgets alone.
+#[test]
+fn large_mechanisms_are_counted_with_budgets_alone() {
+    let effort = TrialEffort {
+        looked: 0,
+        patience: -1.0,
+        ..EFFORT
+    };
+    let t = tried(&lift(6), &Request::default(), effort);
+    assert_eq!((t.looked_at, t.records.len()), (0, 1));
+    assert!(t.records[0].variants.is_none() && stopped(&t).count() == 1);
+    assert!(t.determinate.is_none() && t.space == BigUint::from(4_u8).pow(21).to_string());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `ozols accuracy`.
 
-use crate::accuracy::pictures;
-use crate::accuracy::stability::{self, Effort};
+use crate::accuracy::stability;
+use crate::accuracy::study::{self, Effort};
 use crate::accuracy::survey::{Survey, cases, generated};
 use crate::accuracy::timing::Stopwatch;
 use crate::builtin;
@@ -45,17 +45,26 @@ pub(crate) fn run(args: &Global, a: &Accuracy) -> anyhow::Result<Done> {
             seed: args.seed,
             clock,
         };
-        let studies = stability::all(&survey.cases, effort, &mut |what, done, of| {
-            bar.step(what, done, of);
+        let mut studies = vec![
+            survey.study("share-time"),
+            generated.study("share-time-generated"),
+        ];
+        let all = stability::all(&survey.cases, effort, &mut |what, done, of| {
+            bar.step(what, done, of)
         });
+        studies.extend(all);
         let quick = if a.quick { " --quick" } else { "" };
         let made = format!(
-            "Made by: ozols accuracy{quick} --seed {} -o DIR. On {machine}. The table of each chart is next to it as CSV.",
-            args.seed
+            "Made by: ozols accuracy{quick} --seed {} -o DIR. {}. On {machine}. The table of each chart is next to it as CSV.",
+            args.seed,
+            survey.repeated()
         );
-        output::files(folder, pictures::files(both, &studies, &machine, &made))?;
+        let tables = [("survey.csv", &survey), ("generated.csv", &generated)];
+        let tables = tables.map(|(name, survey)| (name.to_owned(), survey.csv()));
+        let title = "Mobility methods: accuracy, speed, stability";
+        output::files(folder, study::files(title, &made, &studies, tables.into()))?;
         bar.clear();
-        let text = summary(both, &studies, &machine, output::width(None));
+        let text = summary(both, &studies[2..], &machine, output::width(None));
         let index = folder.join("index.html");
         let written = format!("Written to {}: open it in a browser.", index.display());
         return output::put(None, format!("{text}\n{written}\n"));

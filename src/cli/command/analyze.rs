@@ -34,7 +34,8 @@ pub(crate) struct Analyze {
     /// Relative tolerance of the floating-point methods [default: depends on the method].
     #[arg(long, value_name = "T")]
     pub(crate) tolerance: Option<f64>,
-    /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial.
+    /// Model the mechanism in its plane (normal z) with 3 equations per loop, even if the file is spatial. Refused if a joint cannot
+    /// move in that plane.
     #[arg(long)]
     pub(crate) planar: bool,
     /// Also report the motion of this link (repeatable).
@@ -70,7 +71,7 @@ pub(crate) struct Analyze {
 pub(crate) fn run(_: &Global, a: &Analyze) -> anyhow::Result<Done> {
     let mut mechanism = load::mechanism(&a.file)?;
     if a.planar {
-        load::put_in_plane(&mut mechanism);
+        load::put_in_plane(&mut mechanism)?;
     }
     let states = states_asked(&mechanism, a)?;
     check_tolerance(a)?;

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &Global, a: &Statics) -> anyhow::Result<Done> {
     let loops = a.loops.clone();
     let mut m = load::mechanism(&File { file, loops })?;
     if a.planar {
-        load::put_in_plane(&mut m);
+        load::put_in_plane(&mut m)?;
     }
     let state = load::state(&m, &a.state)?;
     match Gripping::new(&m, state) {

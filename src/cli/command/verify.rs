@@ -70,7 +70,7 @@ pub(crate) fn write(
 pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
     let mut m = load::mechanism(&a.file)?;
     if a.planar {
-        load::put_in_plane(&mut m);
+        load::put_in_plane(&mut m)?;
     }
     let name = a.certificates.display();
     let bytes =

@@ -6,8 +6,10 @@ use crate::cli::option::named::{File, Loops, Named};
 use crate::cli::option::reading::description;
 use crate::cli::terminal::output::kept;
 use crate::closure::coupling::in_plane;
+use crate::closure::twist::{FrameValues, MotionSpace};
 use crate::file::text::{MAX_BYTES, mechanism_from_bytes};
-use crate::format::did_you_mean;
+use crate::format::{did_you_mean, list};
+use crate::geom::Reals;
 use crate::geom::expr::Expr;
 use crate::model::joint_type::Coupling;
 use crate::model::mechanism::{Mechanism, Mode, StateId};
@@ -138,10 +140,34 @@ pub(crate) fn state(m: &Mechanism, name: &str) -> anyhow::Result<StateId> {
 }
 
 /// Models a mechanism in the plane of x and y. Couplings of freedoms out of the plane are omitted and reported.
-pub(crate) fn put_in_plane(mechanism: &mut Mechanism) {
+///
+/// # Errors
+/// Returns an error that names the joints that cannot move in the plane at all. A joint that keeps a freedom in it is accepted.
+pub(crate) fn put_in_plane(mechanism: &mut Mechanism) -> anyhow::Result<()> {
     mechanism.mode = Mode::Planar {
         normal: [0, 0, 1].map(Expr::from),
     };
+    let space = MotionSpace::new(&Reals, &mechanism.mode)?;
+    let mut stuck = Vec::new();
+    for joint in &mechanism.joints {
+        let freedoms = joint.joint_type.freedoms();
+        let frame = FrameValues::new(&Reals, &joint.frame)?;
+        if !freedoms.is_empty() && frame.motions(&Reals, &space, freedoms).is_empty() {
+            stuck.push(joint.id.as_str());
+        }
+    }
+    ensure!(
+        stuck.is_empty(),
+        "--planar does not apply to {}: no freedom of {} lies in the plane of x and y; omit --planar to model all six components, \
+         or place the axes of hinges along z and those of sliders across it",
+        mechanism.name,
+        list(
+            &stuck
+                .iter()
+                .map(|id| format!("joint {id}"))
+                .collect::<Vec<_>>()
+        )
+    );
     let all = std::mem::take(&mut mechanism.couplings);
     let stays = |c: &Coupling| {
         c.ends
@@ -156,6 +182,7 @@ pub(crate) fn put_in_plane(mechanism: &mut Mechanism) {
         ));
     }
     mechanism.couplings = kept;
+    Ok(())
 }
 
 /// Returns the message for a name that is neither a regular file nor a built-in mechanism.

@@ -81,7 +81,8 @@ pub(crate) fn machine() -> Machine {
         cores: std::thread::available_parallelism().map_or(threads, usize::from),
         memory: memory(),
         system: format!("{} {architecture}", std::env::consts::OS),
+        version: env!("CARGO_PKG_VERSION"),
         optimised: !cfg!(debug_assertions),
-        processor_time: cfg!(unix),
+        clock: if cfg!(unix) { "processor time" } else { "time" },
     }
 }

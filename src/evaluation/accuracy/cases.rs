@@ -20,8 +20,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// The mechanism's name, with the state's where it is not the free one.
-    #[must_use]
+    /// Returns the mechanism's name, with the state's name unless that is the free one.
     pub fn name(&self) -> String {
         match self.state {
             StateId::FREE => self.mechanism.name.clone(),
@@ -30,10 +29,10 @@ impl Case {
     }
 }
 
-/// Every state of a built-in mechanism whose mobilities the catalogue states, by name.
+/// Returns every state of a built-in mechanism whose mobilities the catalogue states, by name.
 ///
 /// # Errors
-/// Where a built-in file is not valid.
+/// Returns an error if a built-in file is not valid.
 pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
     let mut cases = Vec::new();
     for (name, text) in built_in {
@@ -61,7 +60,6 @@ pub fn cases(built_in: BuiltIn<'_>) -> Result<Vec<Case>, ImportError> {
 ///
 /// # Panics
 /// Never: the texts are valid.
-#[must_use]
 pub fn generated(seed: u64) -> Vec<Case> {
     let mut cases = Vec::new();
     let mut add = |mut mechanism: Mechanism, name: String, truth: Truth| {

@@ -10,7 +10,6 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 
 /// 10^e, exactly.
-#[must_use]
 pub(crate) fn power_of_ten(e: i32) -> Expr {
     Expr::rational(BigRational::from_integer(BigInt::from(10)).pow(e))
 }
@@ -26,7 +25,6 @@ fn bare(mechanism: &Mechanism) -> Mechanism {
 }
 
 /// Every length multiplied by 10^e, exactly.
-#[must_use]
 pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
     let mut m = bare(mechanism);
     let factor = power_of_ten(e);
@@ -41,7 +39,6 @@ pub(crate) fn resized(mechanism: &Mechanism, e: i32) -> Mechanism {
 /// and ranking are unchanged.
 pub(crate) fn stretched(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
     let mut m = mechanism.clone();
-    #[allow(clippy::cast_possible_truncation, reason = "near a million")]
     let mut factor = || (1e6 * (1.0 + by * noise.uniform())) as i64;
     let factors = [(); 3].map(|()| &Expr::from(factor()) * &power_of_ten(-6));
     for joint in &mut m.joints {
@@ -56,7 +53,6 @@ pub(crate) fn stretched(mechanism: &Mechanism, by: f64, noise: &mut Noise) -> Me
 }
 
 /// Returns a copy in which every decimal is exact, as a fraction is.
-#[must_use]
 pub(crate) fn with_exact_decimals(mechanism: &Mechanism) -> Mechanism {
     let mut m = bare(mechanism);
     for joint in &mut m.joints {
@@ -74,7 +70,6 @@ pub struct Noise(ChaCha8Rng);
 
 impl Noise {
     /// The noise of a seed, for the `n`th mechanism.
-    #[must_use]
     pub fn new(seed: u64, n: usize) -> Noise {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(n as u64);
@@ -92,9 +87,8 @@ impl Noise {
     }
 }
 
-/// The mechanism as a person would write it who drew it askew: turned, the plane of a planar one about its normal, and
-/// every number rounded to so many decimals.
-#[must_use]
+/// Returns the mechanism turned at random, a planar one about the normal of its plane, and with every number rounded to the given
+/// decimals.
 pub fn turned_and_rounded(mechanism: &Mechanism, decimals: usize, noise: &mut Noise) -> Mechanism {
     let mut m = bare(mechanism);
     let angle = std::f64::consts::PI * noise.uniform();

@@ -5,7 +5,7 @@ use super::special::Sketch;
 use crate::file::text::mechanism_from_str;
 use crate::model::mechanism::Mechanism;
 
-/// What to build.
+/// A kind of mechanism.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LatticeKind {
     /// Planar four-bars side by side on the frame, each driven by the one before: k contours, W = 1, σ = 3k.
@@ -29,7 +29,6 @@ impl LatticeKind {
 ///
 /// # Panics
 /// Never: the text is valid.
-#[must_use]
 pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
     let name = |link: usize| link.to_string();
     let hinge = |file: &mut Sketch, ends: [usize; 2], [x, y]: [usize; 2]| {
@@ -92,9 +91,7 @@ pub fn mechanism(kind: LatticeKind, k: usize) -> Mechanism {
 
 /// Returns the file of a row of toggles that is shaky of order 2^levels: each knee is pushed by the one before by the square of its
 /// motion. At the pose it has one freedom, and none in truth [Connelly and Servatius 1994; Calladine and Pellegrino 1991].
-#[must_use]
 pub fn toggles(levels: usize, noise: &mut Noise) -> String {
-    #[allow(clippy::cast_possible_truncation, reason = "130 at most")]
     let mut length = || 100 + (30.0 * noise.uniform()) as i64;
     let mut file = Sketch::default();
     // The first knee lies between two bars along x, each further one between two bars across the last push.
@@ -137,7 +134,6 @@ impl Scene {
     pub const ALL: [Scene; 4] = [Scene::Plane, Scene::AboutPlane, Scene::Sphere, Scene::Space];
 
     /// Returns its name in pictures.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Scene::Plane => "plane",
@@ -156,7 +152,6 @@ const OPTIONS: [&str; 4] = ["revolute", "cylindrical", "universal", "spherical"]
 ///
 /// # Panics
 /// Never: the text is valid.
-#[must_use]
 pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
     let mut file = Sketch::default();
     let mut pin = |a: usize, b: usize| {
@@ -185,7 +180,41 @@ pub fn ladder(scene: Scene, contours: usize, noise: &mut Noise) -> Mechanism {
         pin(b, other);
         (side, other) = (a, b);
     }
-    let text = file.text(&format!("{scene:?}-ladder-{contours}").to_lowercase());
-    let text = format!("{text}[search]\noptions = {OPTIONS:?}\n");
-    mechanism_from_str("ladder.toml", &text).expect("a generated file is valid")
+    searched(
+        &file,
+        &format!("{scene:?}-ladder-{contours}").to_lowercase(),
+    )
+}
+
+/// Returns a scissor lift of some stages. A slider on the frame drives the lowest one, and the platform slides on the highest one. Each joint has
+/// four options, as those of a ladder.
+///
+/// # Panics
+/// Never: the text is valid.
+pub fn lift(stages: usize) -> Mechanism {
+    let mut file = Sketch::with_links(["0", "slide"]);
+    let slider = |file: &mut Sketch, ends: [&str; 2], y: i64| {
+        file.joint(ends, "prismatic", &format!("[60, {y}, 0]"), "[1, 0, 0]");
+    };
+    slider(&mut file, ["0", "slide"], 0);
+    let (mut left, mut right) = ("0".to_owned(), "slide".to_owned());
+    let mut low = 0;
+    for i in 1..=stages {
+        let (a, b) = (format!("a{i}"), format!("b{i}"));
+        file.pin([&left, &a], [0, low]);
+        file.pin([&right, &b], [60, low]);
+        file.pin([&a, &b], [30, low + 20]);
+        (left, right) = (b, a);
+        low += 40;
+    }
+    file.pin([&right, "shoe"], [60, low]);
+    slider(&mut file, ["platform", "shoe"], low);
+    file.pin([&left, "platform"], [0, low]);
+    searched(&file, &format!("scissor-lift-{stages}"))
+}
+
+/// Returns a mechanism in which each joint has the options of a ladder.
+fn searched(file: &Sketch, name: &str) -> Mechanism {
+    let text = format!("{}[search]\noptions = {OPTIONS:?}\n", file.text(name));
+    mechanism_from_str("searched.toml", &text).expect("a generated file is valid")
 }

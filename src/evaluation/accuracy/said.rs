@@ -1,5 +1,7 @@
 //! Judgement of answers against the true figures of a mechanism: right, undecided, wrong but reported as not exact, or wrong and sure.
 
+use super::study::Figure;
+use super::timing::quantile;
 use super::{AnswerVerdict, Truth};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::rank::method::auto::{Decision, decide};
@@ -20,7 +22,6 @@ pub enum Said {
 
 impl Said {
     /// Judges an answer: whether it is given, whether it is called exact, and whether it is right.
-    #[must_use]
     pub fn judge(given: bool, exact: bool, right: bool) -> Said {
         match (given, right, exact) {
             (false, ..) => Said::Open,
@@ -55,7 +56,6 @@ impl Said {
 
     /// Judges W at the pose and the finite mobility of a decision. The figures of a nearly special geometry are not exact, nor are
     /// those of a traced motion.
-    #[must_use]
     pub fn of_decision(found: Option<&Decision>, truth: Truth) -> [Said; 2] {
         let Some(d) = found else {
             return [Said::Open; 2];
@@ -78,25 +78,24 @@ impl Said {
 #[derive(Debug, Clone)]
 pub(crate) struct Reply {
     /// The judgement.
-    pub said: Said,
+    said: Said,
     /// The time of the answer in seconds; 0 if it was not measured.
-    pub seconds: f64,
+    seconds: f64,
     /// The name of the case if the answer is wrong and sure; empty otherwise.
-    pub case: String,
+    case: String,
 }
 
 impl Reply {
     /// Returns a reply that was not timed.
     pub(crate) fn new(said: Said, case: impl FnOnce() -> String) -> Reply {
-        let case = if said == Said::Wrong {
-            case()
-        } else {
-            String::new()
-        };
         Reply {
             said,
             seconds: 0.0,
-            case,
+            case: if said == Said::Wrong {
+                case()
+            } else {
+                String::new()
+            },
         }
     }
 
@@ -116,6 +115,14 @@ impl Reply {
         let worst = each.collect::<Option<Vec<_>>>()?.into_iter().max()?;
         Some(Reply::new(worst, || all[0].0.name.clone()))
     }
+
+    /// Returns the replies of several methods.
+    pub(crate) fn of_methods(
+        methods: &[&dyn MobilityMethod],
+        all: &[(&Mechanism, StateId, Truth)],
+    ) -> Vec<Option<Reply>> {
+        methods.iter().map(|m| Reply::of_method(*m, all)).collect()
+    }
 }
 
 /// Replies counted.
@@ -127,15 +134,30 @@ pub(crate) struct Tally {
     pub wrong: Vec<String>,
     /// How long each took.
     pub seconds: Vec<f64>,
+    /// A figure, if the study has one.
+    pub figure: f64,
 }
 
 impl Tally {
-    /// Adds a reply.
-    pub(crate) fn add(&mut self, reply: &Reply) {
-        self.of[reply.said as usize] += 1;
-        self.seconds.push(reply.seconds);
-        if reply.said == Said::Wrong {
-            self.wrong.push(reply.case.clone());
+    /// Counts replies.
+    pub(crate) fn of<'a>(replies: impl IntoIterator<Item = &'a Reply>) -> Tally {
+        let mut tally = Tally::default();
+        for reply in replies {
+            tally.of[reply.said as usize] += 1;
+            tally.seconds.push(reply.seconds);
+            tally
+                .wrong
+                .extend((reply.said == Said::Wrong).then(|| reply.case.clone()));
+        }
+        tally
+    }
+
+    /// Returns a tally of right and of wrong answers that took a time together.
+    pub(crate) fn of_share(right: usize, of: usize, seconds: f64) -> Tally {
+        Tally {
+            of: [right, 0, 0, of - right],
+            seconds: vec![seconds],
+            ..Tally::default()
         }
     }
 
@@ -144,9 +166,22 @@ impl Tally {
         self.of.iter().sum()
     }
 
+    /// Returns the median time in seconds.
+    pub(crate) fn time(&self) -> f64 {
+        quantile(&self.seconds, 0.5)
+    }
+
     /// Returns the share of one of [`Said`] in per cent; 0 if there are no replies.
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     pub(crate) fn percent(&self, said: Said) -> f64 {
         100.0 * self.of[said as usize] as f64 / self.total().max(1) as f64
+    }
+
+    /// Returns the figure that is drawn against the time.
+    pub(super) fn up(&self, figure: Figure) -> f64 {
+        match figure {
+            Figure::Right => self.percent(Said::Right),
+            Figure::Wrong => self.percent(Said::Wrong),
+            Figure::Own(..) => self.figure,
+        }
     }
 }

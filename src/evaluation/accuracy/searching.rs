@@ -1,35 +1,30 @@
-//! How right and how fast each way of searching is: the span diagram over one prime and over two, with second opinions, and
-//! cut short; rankings of larger and smaller pools; a search that prunes; brute force over a prime and in floating point.
+//! How right and how fast each way of searching is: the whole diagram over one prime and over two, with second opinions and with a
+//! budget; rankings of larger and smaller pools; a search that prunes; brute force over a prime and in floating point.
 //!
-//! The truth comes from a third prime, which no way uses: variant by variant where there are few enough to look at each, and
-//! else by the whole diagram over that prime, with as many variants as may be looked at drawn at random. A ranking is judged only
-//! by one of which it is proven that no further variant can win. Verdicts are the same on every run; only times differ.
+//! The truth comes from a third prime, which no way uses: variant by variant if there are few enough to examine each, and
+//! otherwise by the whole diagram over that prime, with some variants drawn at random. A ranking is judged only by one of which it
+//! is proven that no other variant can win.
 
-mod brute_judgement;
 mod ground_truth;
 pub mod pictures;
 pub mod record;
-pub mod search_method;
 
-pub use ground_truth::TrialEffort;
-
-use super::timing::{Stopwatch, Timing};
+use super::timing::Stopwatch;
 use crate::model::mechanism::Mechanism;
+use crate::rank::numeric::Elimination;
 use crate::score::outcome::Outcome;
-use crate::score::request::{Check, List, Method, Request};
-use crate::score::run::RunError;
-use crate::search::check::brute::Matrices;
+use crate::score::request::{Check, List, Method, POOL, Request};
+use crate::score::run::{RunError, run};
+use crate::search::check::brute::{Matrices, Seen};
 use crate::search::check::brute_float::Approximate;
 use crate::search::check::pruned::Pruned;
 use crate::search::diagram::Stop;
 use ground_truth::{Truth, listed};
+use num_bigint::BigUint;
 use num_traits::ToPrimitive;
-use rayon::prelude::*;
-use record::{Record, Trial};
-use search_method::Way;
-use std::hint::black_box;
+use record::{Bracket, Record, Trial, Way};
 
-/// The built-in mechanisms that are compared by default, in addition to a planar ladder whose diagram does not fit. They have few or
+/// The built-in mechanisms that are compared by default, in addition to some whose diagrams are large. They have few or
 /// many variants, special geometry, coupled joints, planar mode, or loads to rank by.
 pub const MECHANISMS: [&str; 6] = [
     "gripper-10",
@@ -40,17 +35,30 @@ pub const MECHANISMS: [&str; 6] = [
     "3-rrr-planar",
 ];
 
-/// Hears which way is under way, how many are done, and their number.
+/// The budgets of nodes that are compared.
+const BUDGETS: [usize; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
+
+/// How much to do.
+#[derive(Debug, Clone, Copy)]
+pub struct TrialEffort {
+    /// Variants that brute force examines. A larger space is sampled. If 0, only budgets of nodes are compared.
+    pub looked: usize,
+    /// The pool that a ranking is judged by; `None` to go through all that could be among the best.
+    pub pool: Option<usize>,
+    /// Seconds after which no larger budget of nodes is tried.
+    pub patience: f64,
+}
+
+/// Receives the current way, the number of finished ways and their number.
 pub type Progress<'a> = &'a mut dyn FnMut(Way, usize, usize);
 
-/// Tries every way of searching a mechanism. Of the request, the conditions count; which list is given, and how it is checked
-/// and counted, the ways decide, but for the number of the best.
+/// Tries every way of searching a mechanism. The request gives the conditions and the number of the best.
 ///
 /// # Errors
 /// As [`crate::score::run::run`].
 ///
 /// # Complexity
-/// Some searches, and six looks at each of [`TrialEffort::looked`] variants.
+/// Some searches, and six examinations of each of [`TrialEffort::looked`] variants.
 pub fn trial(
     mechanism: &Mechanism,
     request: &Request,
@@ -71,163 +79,200 @@ pub fn trial(
         pool: Some(request.cheapest_scored()),
         ..request.clone()
     };
-    let (present, _) = listed(mechanism, &base)?;
-    let ranked = present.ranking.is_some();
-    let truth = Truth::new(&present, mechanism, &base, top, effort)?;
-    let nodes = present
-        .diagrams
-        .as_ref()
-        .map_or(0, |d| d.determinate.nodes.max(d.admissible.nodes));
-    let ways = search_method::all(nodes, ranked.then_some(effort.pool.unwrap_or(usize::MAX)));
-    let mut records = Vec::with_capacity(ways.len());
-    for (n, &way) in ways.iter().enumerate() {
-        progress(way, n, ways.len());
-        records.extend(match way {
-            way if way.looks() => Some(by_looking(&truth, way, watch)?),
-            _ => by_diagram(&truth, way, mechanism, &way.request(&base), watch)?,
-        });
+    let mut trial = Trial::new(&mechanism.name, top);
+    let mut found = None;
+    let mut truth = None;
+    if effort.looked > 0 {
+        let (present, _) = listed(mechanism, &base)?;
+        let new = Truth::new(&present, mechanism, &base, top, effort)?;
+        found = new.found();
+        trial.mechanism.clone_from(&present.search.mechanism.name);
+        trial.space = new.search.size().to_string();
+        (trial.looked_at, trial.all_looked_at) = (new.looked.len(), new.is_whole());
+        (trial.ranked_by_pool, trial.ranking_proven) = new.pool.unzip();
+        let ways = ways(new.pool.is_some(), effort.pool.unwrap_or(usize::MAX));
+        for (n, &way) in ways.iter().enumerate() {
+            progress(way, n, ways.len());
+            trial.records.push(match way {
+                way if way.looks() => by_looking(&new, way, watch)?,
+                _ => by_diagram(&new, way, mechanism, &way.request(&base), watch)?,
+            });
+        }
+        truth = Some(new);
     }
-    Ok(Trial {
-        mechanism: present.search.mechanism.name.clone(),
-        space: truth.search.size(),
-        found: truth.found.clone(),
-        looked: truth.looked.len(),
-        whole: truth.whole,
-        top,
-        ranked: truth.pool,
-        records,
-    })
+    for (n, nodes) in BUDGETS.into_iter().enumerate() {
+        let way = Way::Nodes(nodes);
+        progress(way, n, BUDGETS.len());
+        let (outcome, record) =
+            by_budget(truth.as_ref(), way, mechanism, &way.request(&base), watch)?;
+        trial.space = outcome.search.size().to_string();
+        let exact = outcome.stop == Stop::Exhausted;
+        let slow = record.counting.is_some_and(|t| t.median > effort.patience);
+        // Otherwise it is the whole diagram over one prime again.
+        if !exact || n > 0 || truth.is_none() {
+            trial.records.push(record);
+        }
+        if exact {
+            found.get_or_insert([outcome.determinate.total, outcome.admissible.total]);
+        }
+        if exact || slow {
+            break;
+        }
+    }
+    if let Some(found) = found {
+        trial.judge_brackets(&found);
+    }
+    Ok(trial)
 }
 
-/// A search by the diagram; `None` where a budget of nodes cuts nothing, for every layer may have a few hundred. Counting is
-/// timed without a list, and without the file's ranking.
+/// Returns the ways that are judged by variants. For a ranking these include all pools that are smaller than the one that judges it.
+fn ways(ranked: bool, pool: usize) -> Vec<Way> {
+    let checks = [Check::None, Check::Prime, Check::Full];
+    let pools = [10, 100, 1000, 10_000, POOL].into_iter();
+    let pools = pools.filter(|p| ranked && *p < pool).map(Some);
+    let default = (ranked && pool == usize::MAX).then_some(None);
+    let mut ways = checks.map(Way::Diagram).to_vec();
+    ways.extend(pools.chain(default).map(Way::Pool));
+    ways.extend([Way::Pruned, Way::Brute]);
+    ways.extend(Elimination::ALL.map(Way::Float));
+    ways
+}
+
+/// Returns the record of a search by the diagram. Counting is timed without a list, and without the file's ranking.
 fn by_diagram(
     truth: &Truth,
     way: Way,
     mechanism: &Mechanism,
     request: &Request,
     watch: Stopwatch,
-) -> Result<Option<Record>, RunError> {
+) -> Result<Record, RunError> {
     let (found, naming) = watch.time(|| listed(mechanism, request));
     let (outcome, list) = found?;
-    if matches!(way, Way::Nodes(_)) && outcome.stop == Stop::Exhausted {
-        return Ok(None);
-    }
-    let judge =
-        |choices: &[usize]| Ok::<_, RunError>(brute_judgement::by_diagram(&outcome, choices));
-    let judged = brute_judgement::judge_all(&truth.looked, judge)?;
-    let mut record = Record {
-        way,
-        counting: None,
-        naming: Some(naming),
-        by_proportion: false,
-        counts: None,
-        best: truth.best_right(&list)?,
-        variants: truth.variants_right(&judged),
-        bracket: bracket(&outcome),
-    };
-    if !way.only_names() {
-        let mut unranked = mechanism.clone();
-        unranked.ranking = None;
-        let request = Request {
-            list: List::Nothing,
-            rank: Vec::new(),
-            ..request.clone()
-        };
-        record.counting = Some(watch.time(|| listed(&unranked, &request)).1);
-        record.counts = truth.counts_right(&brute_judgement::cells_of_counts(&outcome));
-    }
-    Ok(Some(record))
-}
-
-/// A search by looking at variants one by one, over the first prime or in floating point.
-fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunError> {
-    let search = truth.over(0)?;
-    let (look, ready) = match way {
-        Way::Float(e) => {
-            let (all, ready) = watch.time(|| Approximate::new(&search, e, e.default_tolerance()));
-            (Look::Float(all?), ready)
-        }
-        Way::Pruned => {
-            let order = search.orders().determinate;
-            let (all, ready) = watch.time(|| Pruned::new(&search, &order));
-            (Look::Pruned(all), ready)
-        }
-        _ => {
-            let (all, ready) = watch.time(|| Matrices::new(&search));
-            (Look::Exact(all), ready)
-        }
-    };
-    let judge = |choices: &[usize]| {
-        let seen = match &look {
-            Look::Float(all) => all.look(choices),
-            Look::Exact(all) => Some(all.look(choices)),
-            Look::Pruned(all) => all.look(choices),
-        };
-        let judged = seen.map(|seen| brute_judgement::judged(&search, choices, seen));
-        Ok(judged.transpose()?.flatten())
-    };
-    let (judged, mut time) =
-        watch.time(|| brute_judgement::judge_all::<RunError>(&truth.looked, judge));
-    let judged = judged?;
-    match (&look, truth.whole) {
-        // One by one the branches would be gone down again for each.
-        (Look::Pruned(all), _) => time = branches(truth, all, watch),
-        (_, true) => {}
-        (_, false) => {
-            time = time.scaled(brute_judgement::ratio(&search.size(), truth.looked.len()))
-        }
-    }
-    let counting = time.plus(ready.median);
-    let whole = truth.whole.then_some(&judged);
-    let cells = whole.map(|j| brute_judgement::cells(&search, j));
-    let best = whole.map(|j| brute_judgement::cheapest(&search, &truth.looked, j, truth.top));
-    let best = match best {
-        Some(best) if truth.pool.is_none() => truth.best_right(&best)?,
-        _ => None,
-    };
+    let judge = |choices: &[usize]| Ok::<_, RunError>(ground_truth::by_diagram(&outcome, choices));
+    let counts = !way.only_names();
     Ok(Record {
         way,
+        counting: counts.then(|| watch.time(|| counted(mechanism, request)).1),
+        naming: Some(naming),
+        by_proportion: false,
+        counts: truth
+            .counts_right(&ground_truth::cells_of_outcome(&outcome))
+            .filter(|_| counts),
+        best: truth.best_right(&list)?,
+        variants: truth.variants_right(&ground_truth::judge_all(&truth.looked, judge)?),
+        bracket: None,
+    })
+}
+
+/// Counts without a list, and without the file's ranking.
+fn counted(mechanism: &Mechanism, request: &Request) -> Result<Outcome, RunError> {
+    let mut unranked = mechanism.clone();
+    unranked.ranking = None;
+    let request = Request {
+        list: List::Nothing,
+        rank: Vec::new(),
+        ..request.clone()
+    };
+    run(unranked, &request, &|| false, &mut |_| {})
+}
+
+/// Returns the record of a count with a budget of nodes.
+fn by_budget(
+    truth: Option<&Truth>,
+    way: Way,
+    mechanism: &Mechanism,
+    request: &Request,
+    watch: Stopwatch,
+) -> Result<(Outcome, Record), RunError> {
+    let (outcome, counting) = watch.time(|| counted(mechanism, request));
+    let outcome = outcome?;
+    let judge = |choices: &[usize]| Ok::<_, RunError>(ground_truth::by_diagram(&outcome, choices));
+    let judged = |truth: &Truth| ground_truth::judge_all(&truth.looked, judge);
+    let judged = truth.map(judged).transpose()?;
+    let record = Record {
+        way,
         counting: Some(counting),
+        naming: None,
+        by_proportion: false,
+        counts: truth.and_then(|t| t.counts_right(&ground_truth::cells_of_outcome(&outcome))),
+        best: None,
+        variants: truth
+            .zip(judged)
+            .and_then(|(t, judged)| t.variants_right(&judged)),
+        bracket: bracket(&outcome),
+    };
+    Ok((outcome, record))
+}
+
+/// Returns what is known of the number of admissible variants. `None` if the search was stopped and gives no estimate.
+fn bracket(outcome: &Outcome) -> Option<Bracket> {
+    let real = |n: &BigUint| n.to_f64().unwrap_or(f64::INFINITY);
+    let counted = real(&outcome.admissible.total);
+    let (certain, likely) = match outcome.estimates()[1] {
+        _ if outcome.stop == Stop::Exhausted => ([counted; 2], [counted; 2]),
+        Some(estimate) => {
+            let most = estimate
+                .at_most
+                .as_ref()
+                .map_or_else(|| real(&outcome.search.size()), real);
+            ([counted, most], estimate.between)
+        }
+        None => return None,
+    };
+    Some(Bracket {
+        certain,
+        likely,
+        holds: None,
+    })
+}
+
+/// What examines a variant.
+type Look<'a> = Box<dyn Fn(&[usize]) -> Option<Seen> + Sync + 'a>;
+
+/// Returns the record of a search that examines variants one by one, over the first prime or in floating point.
+fn by_looking(truth: &Truth, way: Way, watch: Stopwatch) -> Result<Record, RunError> {
+    let search = ground_truth::over(&truth.search, 0)?;
+    let look = || -> Result<Look<'_>, RunError> {
+        Ok(match way {
+            Way::Float(e) => {
+                let all = Approximate::new(&search, e, e.default_tolerance())?;
+                Box::new(move |choices| all.look(choices))
+            }
+            Way::Pruned => {
+                let all = Pruned::new(&search, &search.orders().determinate);
+                Box::new(move |choices| all.look(choices))
+            }
+            _ => {
+                let all = Matrices::new(&search);
+                Box::new(move |choices| Some(all.look(choices)))
+            }
+        })
+    };
+    let (look, ready) = watch.time(look);
+    let look = look?;
+    let judge = |choices: &[usize]| {
+        let judged = look(choices).map(|seen| ground_truth::judged(&search, choices, seen));
+        Ok::<_, RunError>(judged.transpose()?.flatten())
+    };
+    let (judged, each) = watch.time(|| ground_truth::judge_all(&truth.looked, judge));
+    let judged = judged?;
+    let counting = each.map(|t| t * truth.ratio + ready.median);
+    let whole = truth.is_whole();
+    let best = if whole && truth.pool.is_none() {
+        truth.best_right(&truth.cheapest(&judged))?
+    } else {
+        None
+    };
+    let cells = whole.then(|| truth.cells_of(&judged));
+    Ok(Record {
+        way,
+        // A search that prunes is slower one by one, since it goes down its branches again for each.
+        counting: Some(counting).filter(|_| whole || way != Way::Pruned),
         naming: best.map(|_| counting),
-        by_proportion: !truth.whole,
+        by_proportion: !whole,
         counts: cells.and_then(|c| truth.counts_right(&c)),
         best,
         variants: truth.variants_right(&judged),
         bracket: None,
     })
-}
-
-/// Returns the nodes of a stopped search, and the width of its bracket of the determinate variants in per cent of the estimate.
-fn bracket(outcome: &Outcome) -> Option<(f64, f64)> {
-    let estimate = outcome.estimates()[0].filter(|e| e.mean > 0.0)?;
-    let nodes = outcome.diagrams.as_ref()?.determinate.nodes;
-    let [least, most] = estimate.between;
-    let least = least.max(outcome.determinate.total.to_f64()?);
-    Some((
-        f64::from(u32::try_from(nodes).ok()?),
-        100.0 * (most - least).max(0.0) / estimate.mean,
-    ))
-}
-
-/// The time of all branches of a search that prunes, or of some in proportion to all: those below beginnings drawn at random,
-/// each with the same chance, of so many variants together as are looked at.
-fn branches(truth: &Truth, all: &Pruned, watch: Stopwatch) -> Timing {
-    let (beginnings, of) =
-        brute_judgement::beginnings(&truth.search, all.order(), truth.looked.len());
-    let visit = |beginning: &Vec<usize>| {
-        let mut found = 0usize;
-        all.visit(beginning, &mut |_, seen| found += black_box(seen).motion);
-        found
-    };
-    let all_of_them = || beginnings.par_iter().map(visit).sum::<usize>();
-    let time = watch.time(all_of_them).1;
-    time.scaled(brute_judgement::ratio(&of, beginnings.len()))
-}
-
-/// What looks at a variant.
-enum Look {
-    Exact(Matrices),
-    Float(Approximate),
-    Pruned(Pruned),
 }

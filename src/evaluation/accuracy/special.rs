@@ -8,7 +8,7 @@ use crate::geom::vector::Vector;
 use crate::model::mechanism::Mechanism;
 use std::fmt::Write as _;
 
-/// What is made.
+/// A kind of special geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpecialKind {
     /// A door on two hinges, one out of line.
@@ -36,7 +36,6 @@ impl SpecialKind {
     ];
 
     /// Its name in pictures.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             SpecialKind::Door => "door",
@@ -47,7 +46,6 @@ impl SpecialKind {
     }
 
     /// Returns the true figures, with the offset or without it. Parallel rods of any length stay shaky.
-    #[must_use]
     pub fn figures(self, off: bool) -> Truth {
         match (self, off) {
             (_, false) => Truth::new(1, 1),
@@ -108,13 +106,7 @@ impl SpecialKind {
     }
 
     /// The file of one that is off by so many units of the last digit, turned in space or not.
-    #[must_use]
     pub fn text(self, units: f64, decimals: usize, turned: bool, noise: &mut Noise) -> String {
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_possible_wrap,
-            reason = "12 at most"
-        )]
         let unit = 10f64.powi(-(decimals as i32));
         let axis = [(); 3].map(|()| noise.uniform());
         let angle = std::f64::consts::PI * noise.uniform();

@@ -4,13 +4,11 @@
 mod closeness;
 mod limits;
 mod scenes;
-mod study;
 
 use super::cases::Case;
-pub use study::{Effort, Progress, Study, View};
+use super::study::{Effort, Progress, Study};
 
 /// Every study in turn.
-#[must_use]
 pub fn all(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Vec<Study> {
     let step = if effort.quick { 4 } else { 1 };
     let some: Vec<Case> = cases.iter().step_by(step).cloned().collect();

@@ -2,20 +2,21 @@
 
 use super::AnswerVerdict;
 pub use super::cases::{Case, cases, generated};
+use super::said::Tally;
+use super::study::{Figure, Study, View};
 use super::timing::{Stopwatch, Timing, quantile};
 use crate::format::csv;
 use crate::rank::method::registry;
 use crate::rank::method::{Answer, Certainty, MobilityMethod, NoAnswer, Quantity};
 use rayon::prelude::*;
-use serde::Serialize;
 use std::hint::black_box;
 
-/// What a method said of a case.
+/// The answer of a method to a case.
 #[derive(Debug, Clone)]
 pub struct Reply {
     /// The answer, or why there is none.
     pub answer: Result<Answer, NoAnswer>,
-    /// What it is worth.
+    /// The verdict on it.
     pub verdict: AnswerVerdict,
     /// Time from the parsed mechanism to the answer.
     pub time: Timing,
@@ -40,7 +41,6 @@ pub struct MethodRecord {
 
 impl MethodRecord {
     /// Cases it answers wrongly, for the pose too.
-    #[must_use]
     pub fn wrong(&self) -> usize {
         self.applies - self.right - self.pose
     }
@@ -51,7 +51,7 @@ impl MethodRecord {
 pub struct Survey {
     /// The cases, by name.
     pub cases: Vec<Case>,
-    /// What each method of [`registry::ALL`] said, case by case.
+    /// The replies of each method of [`registry::ALL`], case by case.
     pub replies: Vec<Vec<Reply>>,
 }
 
@@ -98,8 +98,6 @@ impl Survey {
     }
 
     /// The record of the `m`th method.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     pub fn standing(&self, m: usize) -> MethodRecord {
         let count = |of: &dyn Fn(&Reply) -> bool| self.of_method(m).filter(|(_, r)| of(r)).count();
         let right = count(&|r| r.verdict == AnswerVerdict::Right);
@@ -118,61 +116,66 @@ impl Survey {
         }
     }
 
-    /// One line for each case and method.
-    pub(crate) fn csv(&self) -> String {
-        let of_case = |(case, replies): (&Case, &Vec<Reply>)| {
-            let row = |(method, reply): (&&dyn MobilityMethod, &Reply)| {
-                let answer = reply.answer.as_ref().ok();
-                ReplyRow {
-                    mechanism: case.mechanism.name.clone(),
-                    state: case.mechanism.states[case.state].clone(),
-                    method: method.name(),
-                    answer: answer.map(|a| a.mobility),
-                    quantity: answer.map(|a| quantity(a.quantity)),
-                    certainty: answer.map(|a| certainty(&a.certainty)),
-                    expected_instantaneous: case.truth.instantaneous,
-                    expected_finite: case.truth.finite,
-                    verdict: reply.verdict.word(),
-                    error: answer.map(|a| a.mobility - case.truth.finite),
-                    reason: reply.answer.as_ref().err().map(ToString::to_string),
-                    median_seconds: seconds(reply.time.median),
-                    least_seconds: seconds(reply.time.least),
-                    most_seconds: seconds(reply.time.most),
-                    repeats: reply.time.repeats,
-                }
-            };
-            registry::ALL
-                .iter()
-                .zip(replies)
-                .map(row)
-                .collect::<Vec<_>>()
-        };
-        csv::records(self.cases.iter().zip(&self.replies).flat_map(of_case))
+    /// Returns the share of right answers of each method against its median time, as the study of this name.
+    pub fn study(&self, name: &'static str) -> Study {
+        let mut study = Study::new(name, Vec::new(), View::Against(Figure::Right));
+        for (m, method) in registry::ALL.iter().enumerate() {
+            let record = self.standing(m);
+            if record.applies > 0 {
+                let tally = Tally::of_share(record.right, self.cases.len(), record.seconds);
+                study.add(method.name(), 1.0, tally);
+            }
+        }
+        study
     }
-}
 
-/// A line of the survey: what one method said of one case.
-#[derive(Serialize)]
-struct ReplyRow {
-    mechanism: String,
-    state: String,
-    method: &'static str,
-    answer: Option<i64>,
-    quantity: Option<&'static str>,
-    certainty: Option<String>,
-    expected_instantaneous: i64,
-    expected_finite: i64,
-    verdict: &'static str,
-    error: Option<i64>,
-    reason: Option<String>,
-    median_seconds: String,
-    least_seconds: String,
-    most_seconds: String,
-    repeats: usize,
-}
+    /// Returns how often answers were timed, and how far their times spread.
+    pub fn repeated(&self) -> String {
+        let times = || self.replies.iter().flatten().map(|r| r.time);
+        let timed = times().filter(|t| t.repeats > 1 && t.median > 0.0);
+        let spread: Vec<f64> = timed.map(|t| (t.most - t.least) / t.median).collect();
+        match times().map(|t| t.repeats).max() {
+            None | Some(0 | 1) => "Each answer was timed once".to_owned(),
+            Some(n) => format!(
+                "Answers were timed {n} times, slow ones fewer; the longest time of an answer is typically {:.0} % above the shortest",
+                100.0 * quantile(&spread, 0.5)
+            ),
+        }
+    }
 
-fn seconds(x: f64) -> String {
-    format!("{x:.3e}")
+    /// Returns a line for each case and method.
+    pub fn csv(&self) -> String {
+        let heads = "mechanism,state,method,answer,quantity,certainty,expected_instantaneous,expected_finite,verdict,error,reason,\
+                     median_seconds,least_seconds,most_seconds,repeats";
+        let row = |m: usize, case: &Case, reply: &Reply| {
+            let (answer, truth, time) = (reply.answer.as_ref().ok(), case.truth, reply.time);
+            let of = |f: &dyn Fn(&Answer) -> String| answer.map(f).unwrap_or_default();
+            let reason = reply.answer.as_ref().err();
+            [
+                case.mechanism.name.clone(),
+                case.mechanism.states[case.state].clone(),
+                registry::ALL[m].name().to_owned(),
+                of(&|a| a.mobility.to_string()),
+                of(&|a| quantity(a.quantity).to_owned()),
+                of(&|a| certainty(&a.certainty)),
+                truth.instantaneous.to_string(),
+                truth.finite.to_string(),
+                reply.verdict.word().to_owned(),
+                of(&|a| (a.mobility - truth.finite).to_string()),
+                reason.map(ToString::to_string).unwrap_or_default(),
+                format!("{:.3e}", time.median),
+                format!("{:.3e}", time.least),
+                format!("{:.3e}", time.most),
+                time.repeats.to_string(),
+            ]
+        };
+        let cases = self.cases.iter().zip(&self.replies);
+        let rows = cases.flat_map(|(case, replies)| {
+            let each = replies.iter().enumerate();
+            each.map(move |(m, reply)| row(m, case, reply))
+        });
+        csv::table(&heads.split(',').collect::<Vec<_>>(), rows)
+    }
 }
 
 fn quantity(q: Quantity) -> &'static str {

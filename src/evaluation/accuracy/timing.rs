@@ -2,6 +2,7 @@
 //!
 //! The clock is the caller's, so that nothing here reads one by itself.
 
+use serde::Serialize;
 use std::fmt;
 use std::hint::black_box;
 use std::time::Duration;
@@ -10,14 +11,14 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_millis(200);
 /// Or so long, however often.
 const LONG: Duration = Duration::from_secs(2);
-/// Times that a median is taken of at least.
+/// The least number of times that a median is taken of.
 const LEAST: usize = 3;
 
 /// The time since some moment, never less than before.
 pub type Clock = fn() -> Duration;
 
 /// What times are measured on: a figure of speed says nothing without it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Machine {
     /// The processor's name, or that of its kind.
     pub processor: String,
@@ -25,49 +26,41 @@ pub struct Machine {
     pub threads: usize,
     /// Processors there are.
     pub cores: usize,
-    /// Bytes of memory, where the system tells.
+    /// Bytes of memory, if the system reports it.
+    #[serde(rename = "memory_bytes")]
     pub memory: Option<u64>,
     /// The operating system.
     pub system: String,
+    /// The program's version.
+    pub version: &'static str,
     /// Whether the program was compiled for speed.
     pub optimised: bool,
-    /// Whether times are those of the processor, which other programs hardly change, or those of the clock on the wall.
-    pub processor_time: bool,
-}
-
-impl Machine {
-    /// The program's version.
-    pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-    /// What times are.
-    #[must_use]
-    pub fn time(&self) -> &'static str {
-        if self.processor_time {
-            "processor time"
-        } else {
-            "time"
-        }
-    }
+    /// What times are: "processor time", which other programs hardly change, or "time" on the wall.
+    pub clock: &'static str,
 }
 
 impl fmt::Display for Machine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}, {} of {} cores",
-            self.processor, self.threads, self.cores
-        )?;
+        let Machine {
+            processor,
+            threads,
+            cores,
+            system,
+            version,
+            ..
+        } = self;
+        write!(f, "{processor}, {threads} of {cores} cores")?;
         if let Some(bytes) = self.memory {
             write!(f, ", {} GB", (bytes + 500_000_000) / 1_000_000_000)?;
         }
-        write!(f, ", {}; ozols {}", self.system, Machine::VERSION)?;
-        if self.optimised {
-            return Ok(());
+        write!(f, ", {system}; ozols {version}")?;
+        if !self.optimised {
+            write!(
+                f,
+                ", a development build, whose times are no measure of the program"
+            )?;
         }
-        write!(
-            f,
-            ", a development build, whose times are no measure of the program"
-        )
+        Ok(())
     }
 }
 
@@ -86,7 +79,6 @@ pub struct Timing {
 
 impl Timing {
     /// Of some times, at least one.
-    #[must_use]
     pub fn of(times: &[f64]) -> Timing {
         let [least, median, most] = [0.0, 0.5, 1.0].map(|at| quantile(times, at));
         Timing {
@@ -97,24 +89,12 @@ impl Timing {
         }
     }
 
-    /// Of something so many times as long.
-    #[must_use]
-    pub fn scaled(self, by: f64) -> Timing {
+    /// Returns times that follow from these ones.
+    pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Timing {
         Timing {
-            median: self.median * by,
-            least: self.least * by,
-            most: self.most * by,
-            ..self
-        }
-    }
-
-    /// Of something that takes so many seconds more.
-    #[must_use]
-    pub(crate) fn plus(self, seconds: f64) -> Timing {
-        Timing {
-            median: self.median + seconds,
-            least: self.least + seconds,
-            most: self.most + seconds,
+            median: f(self.median),
+            least: f(self.least),
+            most: f(self.most),
             ..self
         }
     }
@@ -125,13 +105,13 @@ impl Timing {
 pub struct Stopwatch {
     /// The clock.
     pub clock: Clock,
-    /// How often something is done at most; once at least.
+    /// The largest number of repetitions. There is at least one.
     pub repeat: usize,
 }
 
 impl Stopwatch {
-    /// Does something up to `repeat` times, after once that does not count where it is done more than once: what came of it
-    /// last, and how long each took.
+    /// Does something up to `repeat` times, and returns the last result with the times. If there are several, the first one does not
+    /// count.
     pub fn time<T>(&self, mut f: impl FnMut() -> T) -> (T, Timing) {
         let begun = (self.clock)();
         let mut times = Vec::new();
@@ -152,13 +132,6 @@ impl Stopwatch {
 }
 
 /// The value below which a share of some numbers lies, between neighbours in proportion; 0 of none.
-#[must_use]
-#[allow(
-    clippy::cast_precision_loss,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "counts are small"
-)]
 pub(crate) fn quantile(of: &[f64], share: f64) -> f64 {
     let mut of = of.to_vec();
     of.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! What joint types bear and how much play they have.
+//! Capacities and clearances of joint types.
 
 use crate::model::mechanism::{Joint, JointOption, Mechanism};
 use serde::Deserialize;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 const TEXT: &str = include_str!("joint_types.toml");
 
-/// What a joint bears.
+/// The capacities and the clearance of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointType {
@@ -30,7 +30,6 @@ impl JointTypes {
     ///
     /// # Panics
     /// Never: the text is part of the program, and a test reads it.
-    #[must_use]
     pub fn built_in() -> JointTypes {
         JointTypes {
             by_name: toml::from_str(TEXT).expect("the built-in catalogue is valid"),
@@ -38,7 +37,6 @@ impl JointTypes {
     }
 
     /// The catalogue with what a mechanism's file replaces.
-    #[must_use]
     pub fn of(mechanism: &Mechanism) -> JointTypes {
         let mut all = JointTypes::built_in();
         for o in &mechanism.joint_types {
@@ -62,13 +60,11 @@ impl JointTypes {
     }
 
     /// A type by its name.
-    #[must_use]
     pub fn get(&self, name: &str) -> Option<&JointType> {
         self.by_name.get(name)
     }
 
-    /// What an option bears: by its own name, else by its type's.
-    #[must_use]
+    /// Returns the values of an option by its own name, or by that of its type.
     pub fn option(&self, option: &JointOption) -> JointType {
         let bears_nothing = JointType {
             capacity_force: 1.0,

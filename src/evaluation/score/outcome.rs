@@ -1,4 +1,4 @@
-//! What a search found: counts, how they were checked, and the variants one by one.
+//! Results of a search: counts, their checks, and the variants one by one.
 
 pub mod listing;
 pub mod pareto;
@@ -32,13 +32,13 @@ use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::BTreeMap;
 
-/// What a search found.
+/// The results of a search.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Outcome {
     /// The search: the mechanism as it was searched, the conditions, the space.
     pub search: Search,
-    /// What was asked.
+    /// The request.
     pub request: Request,
     /// Counts by the redundancy condition of the free state.
     pub determinate: Counts,
@@ -53,16 +53,16 @@ pub struct Outcome {
     pub stop: Stop,
     /// Why the search for the determinate variants ended, which come first.
     pub determinate_stop: Stop,
-    /// What a second prime says; `None` where none was asked.
+    /// The comparison with a second prime; `None` if there was none.
     pub check: Option<PrimeCheck>,
-    /// Why the geometry looks measured, with the verdicts on the mechanism as it is; `None` where it looks exact.
+    /// Why the geometry looks measured, with the verdicts on the original mechanism; `None` if it looks exact.
     pub measured: Option<LooksRounded>,
-    /// Other poses of the present motion; `None` where none were asked for.
+    /// Other poses of the original motion; `None` if none were asked for.
     pub stroke: Option<Stroke>,
-    /// The ranking under a workload; `None` where the order is that of cost.
+    /// The ranking under a workload; `None` if the order is that of cost.
     pub ranking: Option<RankedPool>,
-    /// What singular values say, where the mechanism that is meant is not there for exact arithmetic; counts are then those of
-    /// the variants that are sure.
+    /// The results by singular values, if exact arithmetic cannot represent the mechanism that is meant. Counts are then those of the
+    /// variants that are sure.
     pub numeric: Option<AtTolerance>,
     /// What singular values say of the counts, where coordinates look rounded and exact arithmetic counted all the same.
     pub second: Option<SecondOpinion>,
@@ -121,78 +121,66 @@ impl Outcome {
         }
     }
 
-    /// Returns the counts of the variants that are listed: those that keep the motion throughout, where that is known, or else the
-    /// admissible ones.
-    #[must_use]
+    /// Returns the counts of the listed variants: those that keep the motion throughout, or the admissible ones if these are not known.
     pub fn listed_counts(&self) -> &Counts {
         self.lasting.as_ref().unwrap_or(&self.admissible)
     }
 
-    /// Whether everything was looked at in exact arithmetic, and singular values do not contradict it where coordinates look
-    /// rounded, so that counts are exact and the list is the best there is.
-    #[must_use]
+    /// Returns whether exact arithmetic examined everything, and singular values do not contradict it if coordinates look rounded. Counts
+    /// are then exact, and no list is better.
     pub fn is_exact(&self) -> bool {
         self.is_counted() && self.is_confirmed()
     }
 
-    /// Whether exact arithmetic looked at everything, be its answer right or not.
-    #[must_use]
+    /// Returns whether exact arithmetic examined everything, regardless of rounded coordinates.
     pub fn is_counted(&self) -> bool {
         self.stop == Stop::Exhausted && self.numeric.is_none()
     }
 
     /// Whether nothing speaks against exact arithmetic.
-    #[must_use]
     pub fn is_confirmed(&self) -> bool {
         self.second.as_ref().is_none_or(SecondOpinion::confirms)
     }
 
     /// Whether every variant was judged by singular values.
-    #[must_use]
     pub fn is_numeric_whole(&self) -> bool {
         self.numeric.as_ref().is_some_and(AtTolerance::is_whole)
     }
 
-    /// Whether there may be admissible variants beside those counted, which singular values do not decide.
-    #[must_use]
+    /// Returns whether there may be more admissible variants, because singular values do not decide some.
     pub fn admissible_may_be_more(&self) -> bool {
         let found = self.numeric.as_ref();
         found.is_some_and(|f| !f.admissible.is_narrow())
     }
 
     /// Whether the determinate variants are counted exactly, however the rest ended.
-    #[must_use]
     pub fn is_determinate_exact(&self) -> bool {
         self.is_determinate_counted() && self.is_confirmed()
     }
 
-    /// Whether exact arithmetic looked at all that may be determinate, be its answer right or not.
-    #[must_use]
+    /// Returns whether exact arithmetic examined all that may be determinate, regardless of rounded coordinates.
     pub fn is_determinate_counted(&self) -> bool {
         self.determinate_stop == Stop::Exhausted && self.numeric.is_none()
     }
 
     /// The cost in thousandths up to which every admissible variant is known, however the search ended; `None` where of no
     /// cost it can be said.
-    #[must_use]
     pub fn known_up_to(&self) -> Option<i64> {
         let found = self.diagrams.as_ref().filter(|_| self.is_confirmed());
         found?.known_up_to()
     }
 
     /// About how many determinate and admissible variants there are, where the search ended early.
-    #[must_use]
     pub fn estimates(&self) -> [Option<&Estimate>; 2] {
         let found = self.diagrams.as_ref();
         [0, 1].map(|i| found.and_then(|d| d.estimates[i].as_ref()))
     }
 
-    /// How many of the admissible variants are minimal: no other of them has part of their freedoms. `None` where that is not
+    /// Returns the number of minimal admissible variants: no other one has only a part of their freedoms. Returns `None` if it is not
     /// known exactly: the search ended early or is numeric, orbits are counted, or it takes too many nodes.
     ///
     /// # Complexity
     /// That of a diagram of the minimal variants.
-    #[must_use]
     pub fn minimal(&self) -> Option<BigUint> {
         let found = self.diagrams.as_ref().filter(|_| self.is_exact());
         self.search.minimal(found?)
@@ -203,7 +191,6 @@ impl Outcome {
     ///
     /// # Complexity
     /// One more tally of the diagram.
-    #[must_use]
     pub fn admissible_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
         if let Some(found) = &self.numeric {
             return Some(found.by_cost.clone());
@@ -218,7 +205,6 @@ impl Outcome {
 
     /// Returns the counts by cost of those of them that keep the motion throughout; `None` where these are not known, or as
     /// [`Outcome::admissible_by_cost`].
-    #[must_use]
     pub fn lasting_by_cost(&self) -> Option<BTreeMap<i64, BigUint>> {
         let diagrams = self.diagrams.as_ref();
         let lasting = diagrams.and_then(|d| d.lasting.as_ref().ok());
@@ -230,7 +216,7 @@ impl Outcome {
     /// end. If some variants keep the motion in the drawn pose only, returns these.
     ///
     /// # Errors
-    /// Where the geometry has no exact image.
+    /// Returns an error if the geometry has no exact image.
     ///
     /// # Complexity
     /// A search for each condition and each step of easing it, none of more than some thousand nodes.
@@ -250,10 +236,10 @@ impl Outcome {
         why_none::relaxations(&self.search, nodes, cancelled)
     }
 
-    /// What stands in the way of every variant, where nothing was found.
+    /// Returns the reasons that exclude every variant, if nothing was found.
     ///
     /// # Errors
-    /// Where the geometry has no exact image.
+    /// Returns an error if the geometry has no exact image.
     pub fn hopeless(&self) -> Result<Hopeless, SearchError> {
         if self.numeric.is_some() || !self.admissible.total.is_zero() {
             return Ok(Hopeless::default());

@@ -1,5 +1,5 @@
-//! What is asked of a search, in the words of a file or a command line: everything that decides the list of variants, and
-//! how its answer is checked. In JSON it is an object whose keys are the fields, those of the default left out.
+//! A request to search, as a file or a command line states it: everything that determines the list of variants, and the checks of its
+//! answer. In JSON it is an object with the fields as keys, without those that have their defaults.
 
 pub(in crate::score) mod error;
 pub(in crate::score) mod missing_options;
@@ -31,7 +31,7 @@ const LARGEST_POOL: usize = 100_000_000;
 pub struct JointOptions {
     /// The joint.
     pub joint: String,
-    /// Names of options; none where all changes are meant.
+    /// Names of options. Empty means all changes.
     pub names: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ pub struct CostFile {
 pub struct Inserts {
     /// Types, or names that the file gives to unloading joints of these joints.
     pub names: Vec<String>,
-    /// The joints; none where those are meant that the searched state adds.
+    /// The joints. Empty means those that the searched state adds.
     pub joints: Vec<String>,
 }
 
@@ -94,12 +94,12 @@ pub enum Method {
     Brute,
 }
 
-/// What a list of ideas has at each place.
+/// The word for an entry in a list of ideas.
 pub(in crate::score) const IDEA: &str = "idea";
-/// What a list of all variants has at each place.
+/// The word for an entry in a list of all variants.
 pub(in crate::score) const VARIANT: &str = "variant";
 
-/// What is asked of a search.
+/// A request to search.
 ///
 /// The default is the main job: no redundant constraint within the mechanism, the motion of the outputs kept, the ten
 /// cheapest variants, checked in full.
@@ -123,7 +123,7 @@ pub struct Request {
     pub max_harmful: Option<u32>,
     /// The state that takes part; the first besides free where only limits in it are given.
     pub state: Option<String>,
-    /// Whether objects may be let go in the state that takes part.
+    /// Whether objects may be loose in the searched state.
     pub allow_loose_object: bool,
     /// Largest mobility W allowed.
     pub max_mobility: Option<i64>,
@@ -131,20 +131,20 @@ pub struct Request {
     pub max_changes: Option<u32>,
     /// Whether outputs may move in other ways than now.
     pub allow_output_change: bool,
-    /// What is asked of the drives, unless outputs may move in other ways.
+    /// The condition on drives, unless outputs may gain motions.
     pub drives: Drives,
     /// Links that must not gain a motion, besides the outputs; bodies that the searched state adds must be held there.
     pub hold: Vec<String>,
     /// Unloading joints offered besides those of the file.
     pub unloading: Vec<Inserts>,
-    /// The options used everywhere, by name; all of the file where there are none. Joint types that the file does not list are
+    /// The options used everywhere, by name. Empty means all of the file. Joint types that the file does not list are
     /// offered in the joints' own frames.
     pub options: Vec<String>,
     /// Options allowed at single joints.
     pub allow: Vec<JointOptions>,
     /// Options forbidden at single joints.
     pub forbid: Vec<JointOptions>,
-    /// Costs in place of the file's and the defaults; what stands at an option of the file stays.
+    /// Costs instead of the file's and the defaults. A cost at an option of the file remains.
     pub costs: Option<CostFile>,
     /// Mirror symmetry.
     pub symmetry: Symmetry,
@@ -162,8 +162,8 @@ pub struct Request {
     /// Terms to rank by with their weights, in place of the file's.
     #[serde(deserialize_with = "words::weighted_terms")]
     pub rank: Vec<(Term, f64)>,
-    /// How many of the cheapest variants a ranking scores, and no others. `None`: [`POOL`], and then whatever else could come
-    /// before the last of the list.
+    /// How many of the cheapest variants a ranking scores, and no others. `None` is [`POOL`] and then all others that could come before
+    /// the last of the list.
     pub pool: Option<usize>,
     /// Which variants are given. In JSON it is `top`, a number.
     #[serde(rename = "top", deserialize_with = "best")]
@@ -174,7 +174,7 @@ pub struct Request {
     pub check: Check,
     /// How variants are counted.
     pub method: Method,
-    /// Further poses of the present motion that variants are looked at in.
+    /// Number of further poses of the original motion in which variants are examined.
     pub poses: usize,
     /// Whether only the drawn pose is asked about, and not which variants keep the motion throughout.
     pub pose_only: bool,
@@ -220,8 +220,7 @@ impl Default for Request {
 }
 
 impl Request {
-    /// What the list that is asked for has, one at a place: "idea" or "variant". The third of each are different mechanisms.
-    #[must_use]
+    /// Returns the word for an entry of the list: "idea" or "variant". The third entries of the two lists are different mechanisms.
     pub fn one(&self) -> &'static str {
         if self.distinct { IDEA } else { VARIANT }
     }
@@ -229,7 +228,7 @@ impl Request {
     /// Makes a mechanism ready. `tell` hears what was moved.
     ///
     /// # Errors
-    /// Where the request names what the mechanism has not.
+    /// Returns an error if the request names something that the mechanism does not have.
     pub fn prepare(
         &self,
         mechanism: Mechanism,
@@ -278,7 +277,7 @@ impl Request {
     /// `tell` hears what was moved, or why nothing was.
     ///
     /// # Errors
-    /// Where there is no verdict on the mechanism.
+    /// Returns an error if there is no verdict on the mechanism.
     pub fn meant(
         &self,
         mechanism: &Mechanism,
@@ -299,7 +298,7 @@ impl Request {
     /// The state that takes part, with what is asked of variants in it.
     ///
     /// # Errors
-    /// Where the mechanism has no such state.
+    /// Returns an error if the mechanism has no such state.
     pub fn state(&self, mechanism: &Mechanism) -> Result<Option<InState>, RequestError> {
         let state = match &self.state {
             None if self.max_external.is_none() && self.max_harmful.is_none() => {
@@ -329,7 +328,7 @@ impl Request {
     /// returns why its geometry looks rounded, if that may matter; `tell` is warned of that.
     ///
     /// # Errors
-    /// Where the request names what the mechanism has not.
+    /// Returns an error if the request names something that the mechanism does not have.
     pub fn conditions(
         &self,
         prepared: &Prepared,
@@ -374,7 +373,7 @@ impl Request {
     /// The ranking of the file, with the terms of the request where it names some; `None` where neither asks for one.
     ///
     /// # Errors
-    /// Where the pool is none, or too large.
+    /// Returns an error if the pool is 0 or too large.
     pub fn ranking(&self, mechanism: &Mechanism) -> Result<Option<Ranking>, RequestError> {
         let mut ranking = mechanism.ranking.clone();
         if !self.rank.is_empty() {
@@ -395,7 +394,6 @@ impl Request {
 
     /// How many of the cheapest variants a ranking scores before it goes through the others; as [`Request::pool`] of another
     /// request, it is these and no others.
-    #[must_use]
     pub fn cheapest_scored(&self) -> usize {
         self.pool.unwrap_or(POOL)
     }

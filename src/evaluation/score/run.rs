@@ -32,23 +32,23 @@ pub use crate::score::request::error::RunError;
 const BRUTE_LIMIT: u64 = 1 << 32;
 /// How many of the best both primes must agree on where no number of them is asked for.
 const COMPARED: usize = 10;
-/// What is said where counts do not go by their properties.
+/// The note if counts are not split by their properties.
 const ONLY_TOTALS: &str = "note: counts by mobility, changes and the like would take more than the memory allowed (--memory); totals alone are given";
-/// What is said where the second opinion is another.
+/// The note if the second opinion differs.
 const CONTRADICTED: &str = "warning: singular values contradict the exact counts, so variants are judged by singular values instead, and no figure is exact";
 
 /// What happens on the way, for whoever shows it.
 #[derive(Debug)]
 pub enum Event {
-    /// What was moved, or is doubtful, in a sentence.
+    /// A sentence about a changed or doubtful value.
     Note(String),
     /// How far the diagrams have come.
     Building(Progress),
     /// The diagrams are there. Cancelling up to here cuts them short; from here on it is about what follows.
     Built,
-    /// Of the variants that a ranking did not score, so many of so many branches are gone through.
+    /// The progress through the variants that a ranking did not score, in branches.
     Proving {
-        /// Branches gone through.
+        /// Finished branches.
         done: usize,
         /// Branches in all.
         of: usize,
@@ -57,17 +57,17 @@ pub enum Event {
 
 /// Hears what happens on the way.
 pub type Tell<'a> = &'a mut (dyn FnMut(Event) + Send);
-/// Says whether to end early.
+/// Returns whether to end early.
 pub type ShouldCancel<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Searches a mechanism.
 ///
 /// # Errors
-/// Where the request does not suit the mechanism, measured coordinates change the figures, two primes disagree, or a
-/// ranking asks for loads that are not there.
+/// Returns an error if the request does not suit the mechanism, if measured coordinates change the figures, if two primes disagree, or
+/// if a ranking needs loads that the file does not state.
 ///
 /// # Guarantee
-/// Counts are exact where [`Outcome::stop`] is [`Stop::Exhausted`], and lower bounds otherwise. A rank modulo a prime is a
+/// Counts are exact if [`Outcome::stop`] is [`Stop::Exhausted`], and lower bounds otherwise. A rank modulo a prime is a
 /// lower bound of the true one; with [`Check::Prime`] or [`Check::Full`] two primes near 2^61 agree on every node.
 pub fn run(
     mechanism: Mechanism,
@@ -183,7 +183,7 @@ fn with_twin(
     })
 }
 
-/// Every variant looked at.
+/// Examines every variant.
 fn by_brute_force(
     search: Search,
     request: &Request,
@@ -255,7 +255,7 @@ fn counted(search: &Search, diagrams: &Diagrams, request: &Request) -> SearchCou
     counts
 }
 
-/// Other poses to look at variants in, where that is asked for.
+/// Returns other poses in which variants are examined, if the request asks for them.
 fn in_other_poses(
     search: &Search,
     request: &Request,
@@ -315,7 +315,7 @@ fn by_values(conditions: &Conditions) -> Result<Option<(Search, Digits)>, RunErr
     Ok(Some((search, digits)))
 }
 
-/// The search by singular values, of a mechanism that is not there for exact arithmetic as it is meant.
+/// Searches by singular values, if exact arithmetic cannot represent the mechanism that is meant.
 fn numeric(
     mut search: Search,
     digits: Digits,

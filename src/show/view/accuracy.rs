@@ -1,95 +1,61 @@
 //! How right and how fast methods and ways of searching are, for people and as data.
 
 use crate::accuracy::AnswerVerdict;
-use crate::accuracy::pictures::repeated;
-use crate::accuracy::searching::pictures::{USE_WHEN, ranking, wrong};
-use crate::accuracy::searching::record::{Record, Share, Trial, rows};
-use crate::accuracy::stability::Study;
+use crate::accuracy::searching::pictures::{ranking, wrong};
+use crate::accuracy::searching::record::{Bracket, Record, Share, Trial};
+use crate::accuracy::study::Study;
 use crate::accuracy::survey::{Case, Survey};
 use crate::accuracy::timing::{Machine, Timing};
-use crate::format::{duration, signed};
+use crate::format::{brief, duration, signed};
 use crate::rank::method::{MobilityMethod, registry};
 use crate::view::prelude::*;
 use std::cmp::Reverse;
 
-/// Returns everything for programs: the keys are a stable contract, in this order. Counts are strings, since they outgrow 2^53.
-pub fn bench_json(trials: &[Trial], machine: &Machine) -> Value {
-    let trial = |t: &Trial| {
-        let found = |i: usize| t.found.as_ref().map(|f| f[i].to_string());
-        json!({
-            "mechanism": t.mechanism,
-            "space": t.space.to_string(),
-            "determinate": found(0),
-            "admissible": found(1),
-            "looked_at": t.looked,
-            "all_looked_at": t.whole,
-            "top": t.top,
-            "ranked_by_pool": t.ranked.map(|r| r.0),
-            "ranking_proven": t.ranked.map(|r| r.1),
-        })
-    };
-    json!({
-        "machine": {
-            "processor": machine.processor,
-            "threads": machine.threads,
-            "cores": machine.cores,
-            "memory_bytes": machine.memory,
-            "system": machine.system,
-            "version": Machine::VERSION,
-            "optimised": machine.optimised,
-            "clock": machine.time(),
-        },
-        "mechanisms": trials.iter().map(trial).collect::<Value>(),
-        "ways": rows(trials),
-    })
-}
-
-/// A table for each mechanism, and on what machine they were made.
-pub fn bench_text(trials: &[Trial], machine: &Machine, width: Option<u16>) -> String {
+/// Returns a table for each mechanism, advice, and the machine that they were made on.
+pub fn bench_text(
+    trials: &[Trial],
+    advice: &[&str],
+    machine: &Machine,
+    width: Option<u16>,
+) -> String {
     let mut out = String::new();
     for t in trials {
-        out += &fit(&trial_head(t), width);
+        let known = match t.determinate.as_ref().zip(t.admissible.as_ref()) {
+            Some((determinate, admissible)) => format!(
+                "{} determinate, {} admissible",
+                grouped(determinate),
+                grouped(admissible)
+            ),
+            None => "the true counts are not known".to_owned(),
+        };
         let heads = format!(
-            "way | right counts | counting | of the best {} | naming them | right variants",
+            "way | right counts | counting | decades, 95 % | of the best {} | naming them | right variants",
             t.top
         );
+        let space = grouped(&t.space);
+        let head = format!("{}: {space} variants, {known}\n", t.mechanism);
+        out += &fit(&head, width);
         out += &format!("\n{}\n\n", table(&heads, t.records.iter().map(row), width));
         out += &fit(&format!("{}\n\n", notes(t)), width);
     }
-    let mut records = trials.iter().flat_map(|t| &t.records);
-    let times = if records.any(|r| r.counting.is_some_and(|t| t.repeats > 1)) {
+    let mut counted = trials
+        .iter()
+        .flat_map(|t| &t.records)
+        .filter_map(|r| r.counting);
+    let times = if counted.any(|t| t.repeats > 1) {
         "the median and the farthest from it"
     } else {
         "once"
     };
-    let clock = machine.time();
-    let when = USE_WHEN.join("\n");
+    let (when, clock) = (advice.join("\n"), machine.clock);
     out + &fit(
         &format!("{when}\n\nTimes are {clock}, {times}; on {machine}.\n"),
         width,
     )
 }
 
-fn trial_head(t: &Trial) -> String {
-    let space = grouped(&t.space);
-    match &t.found {
-        Some([determinate, admissible]) => format!(
-            "{}: {space} variants, {} determinate, {} admissible\n",
-            t.mechanism,
-            grouped(determinate),
-            grouped(admissible)
-        ),
-        None => format!(
-            "{}: {space} variants; the truth needs more {}, so that no counts are compared\n",
-            t.mechanism,
-            flag("nodes", "")
-        ),
-    }
-}
-
 fn share(s: Share) -> String {
-    let of = |n: usize| grouped(n);
-    format!("{} of {}", of(s.right), of(s.of))
+    format!("{} of {}", grouped(s.right), grouped(s.of))
 }
 
 fn row(r: &Record) -> Vec<String> {
@@ -100,9 +66,11 @@ fn row(r: &Record) -> Vec<String> {
         r.way.to_string(),
         or_none(r.counts),
         time(r.counting),
+        r.bracket
+            .map_or_else(String::new, |b| brief(Bracket::decades(b.likely))),
         or_none(r.best),
         time(r.naming),
-        share(r.variants),
+        or_none(r.variants),
     ]
 }
 
@@ -117,11 +85,11 @@ fn spread(t: Timing) -> String {
 
 fn notes(t: &Trial) -> String {
     let mut notes = vec![wrong(t)];
-    if !t.whole {
+    if t.looked_at > 0 && !t.all_looked_at {
         notes.push(format!(
-            "Brute force examined {} variants, half drawn from all and half from the admissible ones, and what prunes at branches \
-             drawn at random: they give no counts, and their time is in proportion to all.",
-            grouped(t.looked)
+            "Brute force examined {} variants, half drawn from all and half from the admissible ones: it gives no counts, \
+             and its time is in proportion to all.",
+            grouped(t.looked_at)
         ));
     }
     notes.extend(ranking(t));
@@ -152,9 +120,9 @@ pub fn summary(
             &format!(": the automatic choice is right on {auto}, the counting formula on {count}");
     }
     let table = table(&heads, method_rows(survey, generated), width);
-    out += &format!("\n\n{table}\n\n{}. On {machine}.\n", repeated(survey));
+    out += &format!("\n\n{table}\n\n{}. On {machine}.\n", survey.repeated());
     for study in studies {
-        out += &format!("\n{}: {}\n", study.title, study.conclusion());
+        out += &format!("\n{}: {}\n", study.texts.title, study.conclusion());
     }
     fit(&out, width)
 }

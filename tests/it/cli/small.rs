@@ -187,12 +187,9 @@ fn a_closed_standard_error_is_no_failure() {
 #[test]
 fn couplings_out_of_the_plane_are_left_out_and_said() {
     let shown = out(&["show", "four-bar"]);
-    let tilted = changed(
-        &shown,
-        "point = [0, 0, 0]\naxis = [0, 0, 1]",
-        "point = [0, 0, 0]\naxis = [1, 0, 0]",
-    );
-    let coupled = format!("{tilted}\n[[coupling]]\njoints = [\"0-1\", \"3-0\"]\nratio = 2\n");
+    let hinge = "links = [\"1\", \"2\"]\ntype = \"revolute\"";
+    let sliding = changed(&shown, hinge, &hinge.replace("revolute", "cylindrical"));
+    let coupled = format!("{sliding}\n[[coupling]]\njoints = [\"1-2:tz\", \"3-0\"]\nratio = 2\n");
     let (_folder, file) = written("x.toml", coupled);
     for more in [&[][..], &["--method", "svd"], &["--method", "count-planar"]] {
         let args = [&["analyze", file, "--planar"], more].concat();
@@ -200,6 +197,28 @@ fn couplings_out_of_the_plane_are_left_out_and_said() {
         let said = text(&o.stderr);
         assert_eq!(o.status.code(), Some(0), "{args:?} {said}");
         has(&said, "--planar omits the couplings");
-        has(&said, "0-1");
+        has(&said, "1-2");
     }
+}
+
+/// A plane is too small a model if a joint cannot move in it at all; a joint that keeps one of its freedoms may stay.
+#[test]
+fn a_plane_that_stops_a_joint_is_refused() {
+    let refused = |file: &str| {
+        let o = run(&["analyze", file, "--planar"]);
+        assert_eq!(o.status.code(), Some(2), "{file}");
+        text(&o.stderr)
+    };
+    let said = refused("bennett");
+    for part in ["joint 0-1", "joint 1-2", "omit --planar"] {
+        has(&said, part);
+    }
+    let tilted = changed(
+        &out(&["show", "four-bar"]),
+        "point = [0, 0, 0]\naxis = [0, 0, 1]",
+        "point = [0, 0, 0]\naxis = [1, 0, 0]",
+    );
+    let (_folder, file) = written("x.toml", tilted);
+    has(&refused(file), "no freedom of joint 0-1 lies in the plane");
+    out(&["analyze", "gripper-10", "--planar"]);
 }

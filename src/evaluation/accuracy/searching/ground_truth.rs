@@ -1,7 +1,7 @@
-//! What ways of searching are judged by, from a prime that none of them uses.
+//! What ways of searching are judged by: a search over a prime that none of them uses, and variants examined one by one.
 
-use crate::accuracy::searching::brute_judgement::{self, Cells, JudgedVariant, Properties};
-use crate::accuracy::searching::record::Share;
+use super::TrialEffort;
+use super::record::Share;
 use crate::geom::exact::ExactError;
 use crate::model::mechanism::Mechanism;
 use crate::rank::exact::field::exact_field;
@@ -10,54 +10,46 @@ use crate::score::request::Request;
 use crate::score::run::{RunError, run};
 use crate::search::Search;
 use crate::search::answer::k_best::Assignment;
-use crate::search::build::Diagrams;
-use crate::search::check::brute::Matrices;
+use crate::search::answer::keys::Key;
+use crate::search::check::brute::{self, Matrices, Seen};
 use crate::search::diagram::Stop;
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use itertools::Itertools;
 use num_bigint::BigUint;
+use num_traits::ToPrimitive;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
-
-/// How much to do.
-#[derive(Debug, Clone, Copy)]
-pub struct TrialEffort {
-    /// Variants that brute force looks at; a larger space is sampled.
-    pub looked: usize,
-    /// The pool that a ranking is judged by; `None` where all that could be among the best are gone through.
-    pub pool: Option<usize>,
-}
 
 /// The prime of the truth, counted from 0: searches use the first two.
 const PRIME: usize = 2;
 
-/// The best, in truth.
-enum Best {
-    /// By cost: variants of equal properties are equally good.
-    Cheapest(Vec<Properties>),
-    /// By a ranking.
-    Ranked(Vec<Vec<usize>>),
-}
+/// Properties of a variant that is judged determinate, and whether it meets every condition.
+pub(super) type Judged = (Key, bool);
+
+/// Counts by whether all conditions are asked for, W, and number of changes.
+pub(super) type Cells = BTreeMap<(bool, i64, u32), BigUint>;
 
 /// The truth about a mechanism.
 pub(super) struct Truth {
     /// The search over the prime of the truth.
     pub(super) search: Search,
     matrices: Matrices,
-    /// Variants looked at one by one: all, or half of them drawn from all and half from the admissible ones.
+    /// Variants examined one by one: all, or half of them drawn from all and half from the admissible ones.
     pub(super) looked: Vec<Vec<usize>>,
-    /// Whether those are all.
-    pub(super) whole: bool,
-    /// How many are determinate, and how many admissible.
-    pub(super) found: Option<[BigUint; 2]>,
+    /// How many times as many there are.
+    pub(super) ratio: f64,
+    /// The number of scored variants of a ranking, and whether no other can win.
+    pub(super) pool: Option<(usize, bool)>,
     /// How many of the best are asked for.
     pub(super) top: usize,
-    /// The pool of the ranking, and whether no variant outside of it can win.
-    pub(super) pool: Option<(usize, bool)>,
-    judged: Vec<Option<JudgedVariant>>,
+    judged: Vec<Option<Judged>>,
     cells: Option<Cells>,
-    best: Option<Best>,
+    best: Option<Vec<Vec<u64>>>,
 }
 
 impl Truth {
-    /// The truth about the mechanism and the conditions of an outcome. A ranking is made over the largest pool.
+    /// Returns the truth about the mechanism and the conditions of an outcome. A ranking is made over the largest pool.
     pub(super) fn new(
         outcome: &Outcome,
         mechanism: &Mechanism,
@@ -67,155 +59,223 @@ impl Truth {
     ) -> Result<Truth, RunError> {
         let search = over(&outcome.search, PRIME)?;
         let matrices = Matrices::new(&search);
-        let judge =
-            |choices: &[usize]| brute_judgement::judged(&search, choices, matrices.look(choices));
-        let (looked, diagrams) = looked_at(&search, effort.looked, request.seed);
-        let judged = brute_judgement::judge_all(&looked, judge)?;
-        let (cells, cheapest) = match &diagrams {
-            None => {
-                let best = brute_judgement::cheapest(&search, &looked, &judged, top);
-                (Some(brute_judgement::cells(&search, &judged)), best)
-            }
-            Some(d) if d.stop() == Stop::Exhausted => {
-                let cells = cells_of_diagrams(&search, d);
-                (Some(cells), search.cheapest(d, top).collect())
-            }
-            Some(_) => (None, Vec::new()),
+        let mut looked = variants(&search, effort.looked, request.seed);
+        let mut truth = Truth {
+            pool: None,
+            judged: Vec::new(),
+            cells: None,
+            best: None,
+            looked: Vec::new(),
+            ratio: 1.0,
+            top,
+            matrices,
+            search,
         };
-        let (mut pool, mut best) = (None, None);
+        let (search, mut cheapest) = (&truth.search, None);
+        if search.size() > BigUint::from(effort.looked) {
+            let diagrams = search.build(&|| false, &mut |_| {});
+            looked.truncate(effort.looked.div_ceil(2));
+            let good = search.sample(&diagrams, request.seed);
+            looked.extend(good.take(effort.looked / 2).map(|a| a.choices));
+            let each = looked.len().max(1) as f64;
+            truth.ratio = search.size().to_f64().unwrap_or(f64::INFINITY) / each;
+            if diagrams.stop() == Stop::Exhausted {
+                let both = [(false, &diagrams.determinate), (true, &diagrams.admissible)];
+                let both =
+                    both.map(|(all, d)| (all, search.counts(d, all).by_mobility_and_changes));
+                truth.cells = Some(both.into_iter().flat_map(named).collect());
+                cheapest = Some(search.cheapest(&diagrams, top).collect::<Vec<_>>());
+            }
+        }
+        truth.judged = judge_all(&looked, |c| truth.judge(c))?;
+        truth.looked = looked;
+        if truth.is_whole() {
+            truth.cells = Some(truth.cells_of(&truth.judged));
+            cheapest = Some(truth.cheapest(&truth.judged));
+        }
+        truth.best = cheapest.map(|list| list.iter().map(|a| truth.properties(a.key)).collect());
         if outcome.ranking.is_some() {
             let request = Request {
                 pool: effort.pool,
                 ..request.clone()
             };
             let (all, list) = listed(mechanism, &request)?;
-            pool = all.ranking.as_ref().map(|r| (r.scored, r.proven));
+            truth.pool = all.ranking.as_ref().map(|r| (r.scored, r.proven));
             // A pool is no judge of itself: outside of it may be better ones.
-            let ranked = || Best::Ranked(list.into_iter().map(|a| a.choices).collect());
-            best = pool.is_some_and(|(_, proven)| proven).then(ranked);
-        } else if cells.is_some() {
-            let of = |a: &Assignment| brute_judgement::properties(&search, a.key);
-            best = Some(Best::Cheapest(cheapest.iter().map(of).collect()));
+            let proven = truth.pool.is_some_and(|(_, proven)| proven);
+            truth.best = proven.then(|| list.iter().map(ranked).collect());
         }
-        let total = |cells: &Cells, which| {
+        Ok(truth)
+    }
+
+    /// Returns whether all variants are examined.
+    pub(super) fn is_whole(&self) -> bool {
+        self.ratio <= 1.0
+    }
+
+    /// Returns the numbers of determinate and of admissible variants.
+    pub(super) fn found(&self) -> Option<[BigUint; 2]> {
+        let cells = self.cells.as_ref()?;
+        let total = |which| {
             let of = cells.iter().filter(|(k, _)| k.0 == which);
             of.map(|(_, n)| n).sum::<BigUint>()
         };
-        Ok(Truth {
-            found: cells.as_ref().map(|c| [total(c, false), total(c, true)]),
-            whole: diagrams.is_none(),
-            top,
-            pool,
-            judged,
-            cells,
-            best,
-            looked,
-            matrices,
-            search,
-        })
+        Some([false, true].map(total))
     }
 
-    /// The same search over a prime.
-    pub(super) fn over(&self, nth: usize) -> Result<Search, RunError> {
-        over(&self.search, nth)
+    fn judge(&self, choices: &[usize]) -> Result<Option<Judged>, ExactError> {
+        judged(&self.search, choices, self.matrices.look(choices))
     }
 
-    /// How many of all counts, those there are in truth and those a way has, are equal.
+    /// Returns how many of all counts, the true ones and those found, are equal.
     pub(super) fn counts_right(&self, found: &Cells) -> Option<Share> {
         Some(equal_counts(self.cells.as_ref()?, found))
     }
 
-    /// How many of the best a list has. A variant that is not admissible in truth is none of them.
+    /// Returns how many of the best a list has. Among variants of equal cost, W and number of changes none is better. A variant that
+    /// is not admissible in truth is none of the best.
     pub(super) fn best_right(&self, list: &[Assignment]) -> Result<Option<Share>, ExactError> {
         let Some(best) = &self.best else {
             return Ok(None);
         };
-        let (right, of) = match best {
-            Best::Ranked(best) => {
-                let given = best
-                    .iter()
-                    .filter(|b| list.iter().any(|a| a.choices == **b));
-                (given.count(), best.len())
-            }
-            Best::Cheapest(best) => {
-                let seen = |a: &Assignment| self.matrices.look(&a.choices);
-                let truth =
-                    |a: &Assignment| brute_judgement::judged(&self.search, &a.choices, seen(a));
-                let judged = list.iter().map(truth).collect::<Result<Vec<_>, _>>()?;
-                let good = judged.into_iter().flatten().filter(|j| j.admissible);
-                let mut left: BTreeMap<Properties, usize> = BTreeMap::new();
-                good.for_each(|j| {
-                    *left
-                        .entry(brute_judgement::properties(&self.search, j.key))
-                        .or_default() += 1
-                });
-                let given = best.iter().filter(|p| match left.get_mut(p) {
-                    Some(n) if *n > 0 => {
-                        *n -= 1;
-                        true
-                    }
-                    _ => false,
-                });
-                (given.count(), best.len())
-            }
-        };
+        let mut given = Vec::new();
+        for a in list {
+            given.extend(match self.pool {
+                Some(_) => Some(ranked(a)),
+                None => self
+                    .judge(&a.choices)?
+                    .filter(|j| j.1)
+                    .map(|j| self.properties(j.0)),
+            });
+        }
+        let given = given.into_iter().counts();
+        let common = |(one, n): (&Vec<u64>, usize)| n.min(given.get(one).copied().unwrap_or(0));
+        let right = best.iter().counts().into_iter().map(common).sum();
+        let of = best.len();
         Ok(Some(Share { right, of }))
     }
 
-    /// How many of the variants looked at are judged rightly: whether determinate, with which σ, and whether admissible.
-    pub(super) fn variants_right(&self, judged: &[Option<JudgedVariant>]) -> Share {
-        let verdict = |j: &Option<JudgedVariant>| j.map(|j| (j.key.internal(), j.admissible));
+    /// Returns how many of the examined variants are judged rightly: whether determinate, with which σ, and whether admissible.
+    pub(super) fn variants_right(&self, judged: &[Option<Judged>]) -> Option<Share> {
+        let verdict = |j: &Option<Judged>| j.map(|(key, good)| (key.internal(), good));
         let pairs = self.judged.iter().zip(judged);
-        Share {
-            right: pairs.filter(|(a, b)| verdict(a) == verdict(b)).count(),
-            of: self.judged.len(),
+        let right = pairs.filter(|(a, b)| verdict(a) == verdict(b)).count();
+        let of = self.judged.len();
+        Some(Share { right, of })
+    }
+
+    /// Returns the counts of judged variants.
+    pub(super) fn cells_of(&self, judged: &[Option<Judged>]) -> Cells {
+        let mut cells = Cells::new();
+        for (key, good) in judged.iter().flatten() {
+            for all in [false, true].into_iter().take(1 + usize::from(*good)) {
+                let cell = (all, self.search.mobility(*key), key.changes());
+                *cells.entry(cell).or_default() += 1u8;
+            }
         }
+        cells
+    }
+
+    /// Returns the cheapest admissible ones of the judged variants, in the order of the program but for ties.
+    pub(super) fn cheapest(&self, judged: &[Option<Judged>]) -> Vec<Assignment> {
+        let all = self.looked.iter().zip(judged);
+        let good = all.filter_map(|(choices, j)| Some((choices, j.filter(|j| j.1)?.0)));
+        let sorted = good.sorted_by_key(|(_, key)| self.properties(*key));
+        let assignment = |(choices, key): (&Vec<usize>, Key)| Assignment {
+            choices: choices.clone(),
+            key,
+        };
+        sorted.take(self.top).map(assignment).collect()
+    }
+
+    /// Returns cost, W and number of changes, by which a list is sorted.
+    fn properties(&self, key: Key) -> Vec<u64> {
+        let w = self.search.mobility(key).unsigned_abs();
+        vec![key.cost(), w, u64::from(key.changes())]
     }
 }
 
-/// The variants to look at one by one: all; or, where they are too many, some drawn from all and some from the admissible ones
-/// of the diagrams, which come along.
-fn looked_at(search: &Search, most: usize, seed: u64) -> (Vec<Vec<usize>>, Option<Diagrams>) {
-    if let Some(all) = brute_judgement::every(search, most) {
-        return (all, None);
-    }
-    let diagrams = search.build(&|| false, &mut |_| {});
-    let mut some = brute_judgement::drawn(search, most.div_ceil(2), seed);
-    let good = search.sample(&diagrams, seed);
-    let good: Vec<_> = good.take(most / 2).collect();
-    some.extend(good.into_iter().map(|a| a.choices));
-    (some, Some(diagrams))
+/// Returns what tells a ranked variant from others.
+fn ranked(a: &Assignment) -> Vec<u64> {
+    a.choices.iter().map(|&c| c as u64).collect()
 }
 
-/// All counts of whole diagrams.
-fn cells_of_diagrams(search: &Search, diagrams: &Diagrams) -> Cells {
-    let counts = [(false, &diagrams.determinate), (true, &diagrams.admissible)];
-    let of = counts.into_iter().flat_map(|(all, diagram)| {
-        let counts = search.counts(diagram, all).by_mobility_and_changes;
-        counts.into_iter().map(move |((w, c), n)| ((all, w, c), n))
-    });
-    of.collect()
-}
-
-/// Searches by the diagram, and gives the list that was asked for.
-pub(super) fn listed(
-    mechanism: &Mechanism,
-    request: &Request,
-) -> Result<(Outcome, Vec<Assignment>), RunError> {
-    let outcome = run(mechanism.clone(), request, &|| false, &mut |_| {})?;
-    let list = outcome.variants().map(|v| v.assignment().clone());
-    let list = list.collect();
-    Ok((outcome, list))
-}
-
-/// A search over another prime.
-fn over(search: &Search, nth: usize) -> Result<Search, RunError> {
+/// Returns a search over another prime.
+pub(super) fn over(search: &Search, nth: usize) -> Result<Search, RunError> {
     let field = exact_field(&search.mechanism, nth)?;
     let conditions = search.conditions.clone();
     Ok(Search::new(field, search.mechanism.clone(), conditions)?)
 }
 
-/// How many of all counts, those there are in truth and those found, are equal.
+/// Searches by the diagram. Returns the list that was asked for, too.
+pub(super) fn listed(
+    mechanism: &Mechanism,
+    request: &Request,
+) -> Result<(Outcome, Vec<Assignment>), RunError> {
+    let outcome = run(mechanism.clone(), request, &|| false, &mut |_| {})?;
+    let list = outcome.variants().map(|v| v.assignment().clone()).collect();
+    Ok((outcome, list))
+}
+
+/// Returns the judgement that follows from what was seen of a variant; `None` if it is not determinate.
+pub(super) fn judged(
+    search: &Search,
+    choices: &[usize],
+    seen: Seen,
+) -> Result<Option<Judged>, ExactError> {
+    let judged = brute::judge(search, choices, seen)?;
+    Ok(judged.map(|(key, good)| (key, good && search.wanted(key))))
+}
+
+/// Returns the judgement of a search's diagrams; `None` if the variant is not in that of the determinate ones.
+pub(super) fn by_diagram(outcome: &Outcome, choices: &[usize]) -> Option<Judged> {
+    let (search, diagrams) = (&outcome.search, outcome.diagrams.as_ref()?);
+    let key = |redundancy| brute::key(search, choices, redundancy);
+    // The diagram of the determinate ones does not ask what the state makes of a variant.
+    match diagrams.admissible.end(choices).map(key) {
+        Some(key) => Some((key, search.wanted(key))),
+        None => Some((diagrams.determinate.end(choices).map(key)?, false)),
+    }
+}
+
+/// Judges variants in parallel.
+pub(super) fn judge_all<E: Send>(
+    variants: &[Vec<usize>],
+    judge: impl Fn(&[usize]) -> Result<Option<Judged>, E> + Sync,
+) -> Result<Vec<Option<Judged>>, E> {
+    variants.par_iter().map(|v| judge(v)).collect()
+}
+
+/// Returns the counts of an outcome.
+pub(super) fn cells_of_outcome(outcome: &Outcome) -> Cells {
+    let both = [(false, &outcome.determinate), (true, &outcome.admissible)];
+    let both = both.map(|(all, counts)| (all, counts.by_mobility_and_changes.clone()));
+    both.into_iter().flat_map(named).collect()
+}
+
+fn named(
+    (all, counts): (bool, BTreeMap<(i64, u32), BigUint>),
+) -> impl Iterator<Item = ((bool, i64, u32), BigUint)> {
+    counts
+        .into_iter()
+        .map(move |((w, changes), n)| ((all, w, changes), n))
+}
+
+/// Returns every variant, or some drawn with equal chance if there are more than `most`.
+fn variants(search: &Search, most: usize, seed: u64) -> Vec<Vec<usize>> {
+    let variables = search.space.variables.iter();
+    let radix: Vec<usize> = variables.map(|v| v.choices.len()).collect();
+    if search.size() <= BigUint::from(most) {
+        let every = radix.iter().map(|&r| 0..r).multi_cartesian_product();
+        return every.collect();
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut choice = |r: &usize| usize::try_from(random.next_u64() % *r as u64).unwrap_or(0);
+    let mut one = || radix.iter().map(&mut choice).collect();
+    (0..most).map(|_| one()).collect()
+}
+
+/// Returns how many of all counts, the true ones and those found, are equal.
 fn equal_counts(truth: &Cells, found: &Cells) -> Share {
     let only = found.keys().filter(|k| !truth.contains_key(k)).count();
     let right = truth.iter().filter(|(k, n)| found.get(k) == Some(n));

@@ -1,159 +1,120 @@
-//! Ways of searching as pictures, and what they show in words.
+//! Ways of searching as studies, and what they show in words.
 
-use super::record::{self, Record, Share, Trial};
-use super::search_method::Way;
-use crate::accuracy::timing::Machine;
-use crate::chart::{Axis, Chart, Scale, Series, Style, page};
-use crate::format::{brief, grouped, list};
+use super::record::{Bracket, Record, Share, Trial, Way};
+use crate::accuracy::said::Tally;
+use crate::accuracy::study::{Figure, Study, View};
+use crate::format::{grouped, list};
+use crate::score::request::{Check, POOL};
 
-/// Which way to take, in three lines.
-pub const USE_WHEN: [&str; 3] = [
-    "If the diagram fits into --nodes, take it whole: its counts are exact, and --check prime proves them over a second prime.",
-    "If it does not, a search that is stopped gives a bracket of the counts: raise --nodes to narrow it.",
-    "For a ranking leave --pool to its default: the cheapest 20,000 are scored, and then all that could still win.",
-];
-
-/// A kind of ways with how many times the time of the whole diagram each takes, and its wrong answers in per cent.
-type Kind = (&'static str, Vec<(f64, f64)>);
-
-/// Returns the kinds of ways over some trials.
-fn kinds(trials: &[Trial]) -> Vec<Kind> {
-    let mut kinds: Vec<Kind> = Vec::new();
-    for trial in trials {
-        let whole = trial.records.iter().find(|r| r.way.is_whole());
+/// Returns the studies that some trials make: all ways against the whole diagram, brackets of searches with budgets of nodes, and pools of
+/// rankings. A study without rows is omitted. `advice` is what to do for each of the three.
+pub fn studies(trials: &[Trial], advice: [&str; 3]) -> Vec<Study> {
+    let (known, missed) = ("most over least, decades", "missed of the best, %");
+    let mut studies = [
+        ("overview", Figure::Wrong),
+        ("brackets", Figure::Own(known, -4)),
+        ("rankings", Figure::Own(missed, 0)),
+    ]
+    .map(|(name, figure)| Study::new(name, Vec::new(), View::Against(figure)));
+    for (study, advice) in studies.iter_mut().zip(advice) {
+        study.texts.advice = advice.to_owned();
+    }
+    for (n, trial) in trials.iter().enumerate() {
+        let stopped = |r: &Record| r.bracket.is_some_and(|b| Bracket::decades(b.certain) > 0.0);
+        let stopped = trial.records.iter().any(stopped);
         for record in &trial.records {
-            let names = record.way.only_names();
-            let time = |r: &Record| if names { r.naming } else { r.counting };
-            let times = whole.and_then(time).zip(time(record));
-            let share = match record.way {
-                Way::Pool(_) => record.best,
-                _ => Some(record.variants),
-            };
-            let (Some((of, time)), Some(share)) = (times, share) else {
-                continue;
-            };
-            // By a clock that stands still all take as long.
-            let times = if of.median > 0.0 {
-                time.median / of.median
-            } else {
-                1.0
-            };
-            let point = (times, share.percent_wrong());
-            let name = record.way.kind();
-            match kinds.iter_mut().find(|k| k.0 == name) {
-                Some(kind) => kind.1.push(point),
-                None => kinds.push((name, vec![point])),
+            add_to_overview(&mut studies[0], n, trial, record);
+            if stopped {
+                add_to_brackets(&mut studies[1], trial, record);
             }
+            add_to_rankings(&mut studies[2], trial, record);
         }
     }
-    kinds
+    studies.into_iter().filter(|s| !s.rows.is_empty()).collect()
 }
 
-/// Returns a chart of every way on every mechanism: its wrong answers against its time, relative to that of the whole diagram over one
-/// prime.
-#[must_use]
-pub fn overview(trials: &[Trial], machine: &Machine) -> Chart {
-    let series = kinds(trials).into_iter().map(|(name, points)| Series {
-        name: name.to_owned(),
-        points,
-        style: Style::Points,
-    });
-    Chart {
-        title: "Ways of searching: wrong answers against time".to_owned(),
-        subtitle: format!(
-            "A point for each way and mechanism: the share of the examined variants that are judged wrongly, or of the best that a \
-             pool misses. On {machine}."
-        ),
-        x: Axis {
-            label: format!(
-                "{}, the whole diagram over one prime being 1",
-                machine.time()
-            ),
-            scale: Scale::Log,
-        },
-        y: Axis {
-            label: "wrong, %".to_owned(),
-            scale: Scale::LogAndZero(-2),
-        },
-        series: series.collect(),
+/// Adds the wrong answers of a way, and its time as a multiple of that of the whole diagram.
+fn add_to_overview(study: &mut Study, n: usize, trial: &Trial, record: &Record) {
+    let whole = trial
+        .records
+        .iter()
+        .find(|r| r.way == Way::Diagram(Check::None));
+    let time = |r: &Record| {
+        if record.way.only_names() {
+            r.naming
+        } else {
+            r.counting
+        }
+    };
+    let share = match record.way {
+        Way::Pool(_) => record.best,
+        _ => record.variants,
+    };
+    let times = whole.and_then(time).zip(time(record));
+    if let (Some(Share { right, of }), Some((whole, time))) = (share, times) {
+        // By a clock that stands still all take as long.
+        let times = if whole.median > 0.0 {
+            time.median / whole.median
+        } else {
+            1.0
+        };
+        study.add(
+            record.way.about()[0],
+            n as f64,
+            Tally::of_share(right, of, times),
+        );
     }
 }
 
-/// Returns a sentence with the largest share of wrong answers of each kind of ways, and with its times.
-#[must_use]
-pub fn conclusion(trials: &[Trial]) -> String {
-    let told = kinds(trials).into_iter().map(|(name, points)| {
-        let ends = |of: fn(&(f64, f64)) -> f64| {
-            let values = || points.iter().map(of);
-            [
-                values().fold(f64::INFINITY, f64::min),
-                values().fold(0.0, f64::max),
-            ]
-        };
-        let ([least, most], [_, wrong]) = (ends(|p| p.0), ends(|p| p.1));
-        let wrong = if wrong > 0.0 {
-            format!("wrong in up to {wrong:.1} %")
-        } else {
-            "never wrong".to_owned()
-        };
-        let [least, most] = [least, most].map(brief);
-        format!("{name} {wrong}, in {least} to {most} times the time of the whole diagram")
-    });
-    format!("{}.", told.collect::<Vec<_>>().join("; "))
-}
-
-/// Returns a chart of stopped searches: the width of the bracket of the determinate variants against the budget of nodes. Returns `None`
-/// if no search is stopped.
-#[must_use]
-pub fn brackets(trials: &[Trial], machine: &Machine) -> Option<Chart> {
-    let of = |trial: &Trial| {
-        let stopped = trial.records.iter();
-        let mut points: Vec<(f64, f64)> = stopped.filter_map(|r| r.bracket).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        points.dedup();
-        (!points.is_empty()).then(|| Series {
-            name: trial.mechanism.clone(),
-            points,
-            style: Style::Line,
-        })
+/// Adds the widths of the bounds of a budget, certain ones and those with a confidence of 95 %.
+fn add_to_brackets(study: &mut Study, trial: &Trial, record: &Record) {
+    let (Way::Nodes(nodes), Some(bracket), Some(time)) =
+        (record.way, record.bracket, record.counting)
+    else {
+        return;
     };
-    let series: Vec<Series> = trials.iter().filter_map(of).collect();
-    (!series.is_empty()).then(|| Chart {
-        title: "Searches that are stopped: width of the bracket against the budget".to_owned(),
-        subtitle: format!(
-            "The determinate variants that are counted, or the least that the estimate does not contradict with 95 % confidence, to the \
-             most. On {machine}."
-        ),
-        x: Axis {
-            label: "nodes of the diagram".to_owned(),
-            scale: Scale::Log,
-        },
-        y: Axis {
-            label: "width of the bracket, % of the estimate".to_owned(),
-            scale: Scale::LogAndZero(-3),
-        },
-        series,
-    })
+    // An exact count says nothing about intervals.
+    let holds = bracket
+        .holds
+        .filter(|_| Bracket::decades(bracket.certain) > 0.0);
+    let bounds = [
+        ("", bracket.certain, None),
+        (", 95 %", bracket.likely, holds),
+    ];
+    for (after, bounds, holds) in bounds {
+        let tally = Tally {
+            of: match holds {
+                None => [0, 1, 0, 0],
+                Some(holds) => [usize::from(holds), 0, 0, usize::from(!holds)],
+            },
+            seconds: vec![time.median],
+            figure: Bracket::decades(bounds),
+            ..Tally::default()
+        };
+        study.add(&(trial.mechanism.clone() + after), nodes as f64, tally);
+    }
 }
 
-/// Returns a sentence with the width of the bracket of each stopped search.
-fn bracket_sentence(chart: &Chart) -> String {
-    let told = chart.series.iter().map(|s| {
-        let each = s
-            .points
-            .iter()
-            .map(|(nodes, width)| format!("{} % by {} nodes", brief(*width), brief(*nodes)));
-        format!("{}: {}", s.name, list(&each.collect::<Vec<_>>()))
-    });
-    format!("{}.", told.collect::<Vec<_>>().join("; "))
+/// Adds the share of the best that a pool misses. The default is a separate row.
+fn add_to_rankings(study: &mut Study, trial: &Trial, record: &Record) {
+    let (Way::Pool(pool), Some(best), Some(time)) = (record.way, record.best, record.naming) else {
+        return;
+    };
+    let after = if pool.is_none() { ", default" } else { "" };
+    let mut tally = Tally::of_share(best.right, best.of, time.median);
+    tally.figure = tally.up(Figure::Wrong);
+    tally.of = [0, 1, 0, 0];
+    study.add(
+        &format!("{}{after}", trial.mechanism),
+        pool.unwrap_or(POOL) as f64,
+        tally,
+    );
 }
 
-/// What a ranking is judged by.
-#[must_use]
+/// Returns what a ranking is judged by.
 pub fn ranking(trial: &Trial) -> Option<String> {
-    let (pool, proven) = trial.ranked?;
-    let pool = grouped(pool);
-    Some(if proven {
+    let pool = grouped(trial.ranked_by_pool?);
+    Some(if trial.ranking_proven == Some(true) {
         format!(
             "The best are judged by a ranking of the {pool} cheapest variants, the best of all."
         )
@@ -164,60 +125,22 @@ pub fn ranking(trial: &Trial) -> Option<String> {
     })
 }
 
-/// Which ways judge variants wrongly, or give wrong counts, in words.
-#[must_use]
+/// Returns which ways judge variants wrongly, or give wrong counts, in words.
 pub fn wrong(trial: &Trial) -> String {
-    let judged = trial.records.iter().filter_map(|r| {
-        let Share { right, of } = r.variants;
+    let wrong = trial.records.iter().filter_map(|r| {
+        let (share, on) = if r.way.looks() {
+            (r.variants, "variants")
+        } else {
+            (r.counts, "counts")
+        };
+        let Share { right, of } = share.filter(|s| s.right < s.of)?;
         let [wrong, all] = [of - right, of].map(grouped);
-        (r.way.looks() && right < of).then(|| format!("{} on {wrong} of {all} variants", r.way))
+        Some(format!("{} on {wrong} of {all} {on}", r.way))
     });
-    let counted = trial.records.iter().filter_map(|r| {
-        let counts = r.counts.filter(|c| c.right < c.of)?;
-        (!r.way.looks()).then(|| {
-            format!(
-                "{} in {} of {} counts",
-                r.way,
-                counts.of - counts.right,
-                counts.of
-            )
-        })
-    });
-    let all: Vec<String> = counted.chain(judged).collect();
+    let all: Vec<String> = wrong.collect();
     if all.is_empty() {
         "No way is wrong about a variant or a count.".to_owned()
     } else {
         format!("Wrong: {}.", list(&all))
     }
-}
-
-/// Returns the names and texts of all files. `index.html` is the last, so that it exists only after the files that it shows. `made` is
-/// the paragraph on how they were made.
-#[must_use]
-pub fn files(trials: &[Trial], machine: &Machine, made: &str) -> Vec<(String, String)> {
-    let mut files = vec![("searches.csv".to_owned(), record::csv(trials))];
-    let each = trials.iter().map(|t| {
-        let ranked = ranking(t).map_or_else(String::new, |r| format!(" {r}"));
-        format!("{}: {}{ranked}", t.mechanism, wrong(t))
-    });
-    let found = each.collect::<Vec<_>>().join(" ");
-    let how = "How this was made".to_owned();
-    let mut parts = vec![(how, made.to_owned(), String::new())];
-    let told = format!("{} {}", conclusion(trials), USE_WHEN.join(" "));
-    let brackets = brackets(trials, machine).map(|c| ("brackets", bracket_sentence(&c), c));
-    for (name, sentence, chart) in [("overview", told, overview(trials, machine))]
-        .into_iter()
-        .chain(brackets)
-    {
-        let link = "<p><a href=\"searches.csv\">searches.csv</a></p>";
-        let svg = chart.svg();
-        parts.push((chart.title, sentence, svg.clone() + link));
-        files.push((format!("{name}.svg"), svg));
-    }
-    parts.push(("Mechanism by mechanism".to_owned(), found, String::new()));
-    files.push((
-        "index.html".to_owned(),
-        page("Ways of searching: accuracy against speed", &parts),
-    ));
-    files
 }

@@ -1,12 +1,97 @@
-//! What ways of searching are worth, and the table of it for programs: one row for each mechanism and way.
+//! Ways of searching, what each is worth on a mechanism, and the table of it for programs.
 
-use crate::accuracy::searching::search_method::Way;
 use crate::accuracy::timing::Timing;
 use crate::format::csv;
+use crate::rank::method::MobilityMethod;
+use crate::rank::numeric::Elimination;
+use crate::score::request::{Check, Request};
 use num_bigint::BigUint;
+use num_traits::ToPrimitive;
 use serde::Serialize;
+use serde_json::{Map, Value, json};
+use std::fmt;
 
-/// Right ones of how many.
+/// A way of searching.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// The whole diagram, checked in some way.
+    Diagram(Check),
+    /// The diagram with a budget of nodes.
+    Nodes(usize),
+    /// A ranking of the given number of cheapest variants. `None` is the default, which also ranks all others that could win.
+    Pool(Option<usize>),
+    /// Depth first modulo a prime, without what cannot become determinate.
+    Pruned,
+    /// Brute force modulo a prime.
+    Brute,
+    /// Brute force in floating point, at the default tolerance.
+    Float(Elimination),
+}
+
+impl Way {
+    /// Returns a request that searches this way.
+    pub(super) fn request(self, base: &Request) -> Request {
+        let mut request = base.clone();
+        match self {
+            Way::Diagram(check) => request.check = check,
+            Way::Nodes(nodes) => request.nodes = nodes,
+            Way::Pool(pool) => request.pool = pool,
+            Way::Pruned | Way::Brute | Way::Float(_) => {}
+        }
+        request
+    }
+
+    /// Returns the kind of way, and its description.
+    pub fn about(self) -> [&'static str; 2] {
+        match self {
+            Way::Diagram(Check::None) => ["whole diagram", "the diagram over one prime"],
+            Way::Diagram(Check::Prime) => ["whole diagram", "the diagram over two primes"],
+            Way::Diagram(Check::Full) => {
+                ["whole diagram", "also each of the best by singular values"]
+            }
+            Way::Nodes(_) => ["stopped early", "a budget of nodes, and an estimate"],
+            Way::Pool(None) => ["ranked", "the cheapest variants and all that could win"],
+            Way::Pool(_) => ["ranked", "the cheapest variants"],
+            Way::Pruned => [
+                "pruned",
+                "depth first, without what cannot become determinate",
+            ],
+            Way::Brute => ["brute force", "every variant, modulo a prime"],
+            Way::Float(_) => [
+                "brute force, floating point",
+                "every variant, by floating-point ranks",
+            ],
+        }
+    }
+
+    /// Returns whether it counts as another way does, and differs only in how the best are found or checked.
+    pub(super) fn only_names(self) -> bool {
+        matches!(self, Way::Diagram(Check::Full) | Way::Pool(_))
+    }
+
+    /// Returns whether it examines variants one by one.
+    pub fn looks(self) -> bool {
+        matches!(self, Way::Pruned | Way::Brute | Way::Float(_))
+    }
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Way::Diagram(Check::None) => write!(f, "one prime"),
+            Way::Diagram(Check::Prime) => write!(f, "two primes"),
+            Way::Diagram(Check::Full) => write!(f, "full check"),
+            Way::Nodes(n) => write!(f, "{n} nodes"),
+            Way::Pool(None) => write!(f, "default ranking, proven"),
+            Way::Pool(Some(n)) => write!(f, "pool of {n}"),
+            Way::Pruned => write!(f, "pruned"),
+            Way::Brute => write!(f, "brute force"),
+            Way::Float(e) => write!(f, "brute force, {}", e.name()),
+        }
+    }
+}
+
+/// The right ones of some.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Share {
     /// Right ones.
@@ -15,123 +100,149 @@ pub struct Share {
     pub of: usize,
 }
 
-impl Share {
-    /// Wrong ones of a hundred; none of none.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
-    pub(crate) fn percent_wrong(self) -> f64 {
-        100.0 * (self.of - self.right) as f64 / self.of.max(1) as f64
+/// Bounds on the number of admissible variants from a search with a budget of nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bracket {
+    /// Bounds that are certain. They are equal if the budget was large enough.
+    pub certain: [f64; 2],
+    /// Bounds with a confidence of 95 %.
+    pub likely: [f64; 2],
+    /// Whether the true number lies within the likely bounds; `None` if it is not known.
+    pub holds: Option<bool>,
+}
+
+impl Bracket {
+    /// Returns the width of some bounds in decades. A decade is a factor of ten.
+    pub fn decades([least, most]: [f64; 2]) -> f64 {
+        (most.max(1.0) / least.max(1.0)).log10()
     }
 }
 
-/// What a way of searching is worth.
+/// The results of one way of searching.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     /// The way.
     pub way: Way,
-    /// How long it takes to count, or to look at all; `None` where it counts as another way does.
+    /// The time to count, or to examine all; `None` if it counts as another way does.
     pub counting: Option<Timing>,
-    /// How long it takes to count and to name the best; `None` where it names none.
+    /// The time to count and to name the best; `None` if it names none.
     pub naming: Option<Timing>,
-    /// Whether the time is that of the variants looked at, in proportion to all.
+    /// Whether the time is that of the examined variants, in proportion to all.
     pub by_proportion: bool,
-    /// Right counts of determinate and of admissible variants, by W and number of changes; `None` where it gives none, or the
-    /// truth is not known.
+    /// Right counts of determinate and of admissible variants, by W and number of changes; `None` if it gives none, or the truth is
+    /// not known.
     pub counts: Option<Share>,
-    /// How many of the best it names are among them; `None` where it names none, or the truth is not known.
+    /// How many of the best it names; `None` if it names none, or the truth is not known.
     pub best: Option<Share>,
-    /// Variants looked at one by one that it judges rightly.
-    pub variants: Share,
-    /// Nodes of a search that was stopped, and how wide its bracket of the determinate variants is, in per cent of the estimate.
-    pub bracket: Option<(f64, f64)>,
+    /// Examined variants that it judges rightly; `None` if none were examined.
+    pub variants: Option<Share>,
+    /// The bracket of a search with a budget of nodes.
+    pub bracket: Option<Bracket>,
 }
 
 /// Every way of searching one mechanism.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trial {
     /// The mechanism.
     pub mechanism: String,
-    /// Its variants.
-    pub space: BigUint,
-    /// Those that are determinate and those that are admissible in truth; `None` where the node budget is too small for it.
-    pub found: Option<[BigUint; 2]>,
-    /// Variants looked at one by one.
-    pub looked: usize,
+    /// The number of its variants.
+    pub space: String,
+    /// The true number of determinate variants; `None` if it is not known.
+    pub determinate: Option<String>,
+    /// The true number of admissible variants; `None` if it is not known.
+    pub admissible: Option<String>,
+    /// Variants examined one by one.
+    pub looked_at: usize,
     /// Whether those are all.
-    pub whole: bool,
+    pub all_looked_at: bool,
     /// How many of the best are asked for.
     pub top: usize,
-    /// The largest pool that was ranked, and whether no variant outside of it can win: only then the best are judged. `None`
-    /// without a ranking.
-    pub ranked: Option<(usize, bool)>,
-    /// What each way is worth.
+    /// How many variants the largest ranking scored; `None` without a ranking.
+    pub ranked_by_pool: Option<usize>,
+    /// Whether no other variant can win. Only then the best are judged.
+    pub ranking_proven: Option<bool>,
+    /// The results of each way.
+    #[serde(skip)]
     pub records: Vec<Record>,
 }
 
-/// A row; the keys are a stable contract, in this order.
-#[derive(Debug, Serialize)]
-pub struct TrialRow<'a> {
-    mechanism: &'a str,
-    way: String,
-    about: &'static str,
-    counts_right: Option<usize>,
-    counts: Option<usize>,
-    best_right: Option<usize>,
-    best: Option<usize>,
-    variants_right: usize,
-    variants: usize,
-    median_seconds: Option<f64>,
-    least_seconds: Option<f64>,
-    most_seconds: Option<f64>,
-    repeats: Option<usize>,
-    by_proportion: bool,
-    naming_median_seconds: Option<f64>,
-    naming_least_seconds: Option<f64>,
-    naming_most_seconds: Option<f64>,
-    naming_repeats: Option<usize>,
-    bracket_percent: Option<f64>,
-}
-
-impl<'a> TrialRow<'a> {
-    fn new(trial: &'a Trial, record: &Record) -> TrialRow<'a> {
-        let right = |s: Option<Share>| s.map(|s| s.right);
-        let of = |s: Option<Share>| s.map(|s| s.of);
-        TrialRow {
-            mechanism: &trial.mechanism,
-            way: record.way.to_string(),
-            about: record.way.about(),
-            counts_right: right(record.counts),
-            counts: of(record.counts),
-            best_right: right(record.best),
-            best: of(record.best),
-            variants_right: record.variants.right,
-            variants: record.variants.of,
-            median_seconds: record.counting.map(|t| t.median),
-            least_seconds: record.counting.map(|t| t.least),
-            most_seconds: record.counting.map(|t| t.most),
-            repeats: record.counting.map(|t| t.repeats),
-            by_proportion: record.by_proportion,
-            naming_median_seconds: record.naming.map(|t| t.median),
-            naming_least_seconds: record.naming.map(|t| t.least),
-            naming_most_seconds: record.naming.map(|t| t.most),
-            naming_repeats: record.naming.map(|t| t.repeats),
-            bracket_percent: record.bracket.map(|b| b.1),
+impl Trial {
+    /// Returns a trial without records.
+    pub(super) fn new(mechanism: &str, top: usize) -> Trial {
+        Trial {
+            mechanism: mechanism.to_owned(),
+            space: String::new(),
+            determinate: None,
+            admissible: None,
+            looked_at: 0,
+            all_looked_at: false,
+            top,
+            ranked_by_pool: None,
+            ranking_proven: None,
+            records: Vec::new(),
         }
+    }
+
+    /// Takes the true numbers of determinate and of admissible variants, and judges each bracket by the second.
+    pub(super) fn judge_brackets(&mut self, [determinate, admissible]: &[BigUint; 2]) {
+        let truth = admissible.to_f64().unwrap_or(f64::INFINITY);
+        for bracket in self.records.iter_mut().filter_map(|r| r.bracket.as_mut()) {
+            let [least, most] = bracket.likely;
+            bracket.holds = Some(least <= truth && truth <= most);
+        }
+        self.determinate = Some(determinate.to_string());
+        self.admissible = Some(admissible.to_string());
     }
 }
 
-/// The rows of some trials.
-#[must_use]
-pub fn rows(trials: &[Trial]) -> Vec<TrialRow<'_>> {
-    let of = |t| move |r| TrialRow::new(t, r);
-    trials
+/// Returns a row for each mechanism and way. The keys are a stable contract, in this order.
+pub fn rows(trials: &[Trial]) -> Vec<Map<String, Value>> {
+    let row = |t: &Trial, r: &Record| {
+        let share = |s: Option<Share>| [s.map(|s| s.right), s.map(|s| s.of)];
+        let [
+            [counts_right, counts],
+            [best_right, best],
+            [variants_right, variants],
+        ] = [r.counts, r.best, r.variants].map(share);
+        let bounds = |of: fn(&Bracket) -> [f64; 2]| r.bracket.as_ref().map(of);
+        let (certain, likely) = (bounds(|b| b.certain), bounds(|b| b.likely));
+        let percent = likely.map(|[a, b]| 200.0 * (b - a) / (a + b).max(1.0));
+        let all = json!({
+            "mechanism": t.mechanism, "way": r.way.to_string(), "about": r.way.about()[1],
+            "counts_right": counts_right, "counts": counts, "best_right": best_right, "best": best,
+            "variants_right": variants_right, "variants": variants,
+            "median_seconds": r.counting.map(|t| t.median), "least_seconds": r.counting.map(|t| t.least),
+            "most_seconds": r.counting.map(|t| t.most), "repeats": r.counting.map(|t| t.repeats),
+            "by_proportion": r.by_proportion,
+            "naming_median_seconds": r.naming.map(|t| t.median), "naming_least_seconds": r.naming.map(|t| t.least),
+            "naming_most_seconds": r.naming.map(|t| t.most), "naming_repeats": r.naming.map(|t| t.repeats),
+            "bracket_percent": percent,
+            "least": certain.map(|c| c[0]), "most": certain.map(|c| c[1]),
+            "likely_least": likely.map(|l| l[0]), "likely_most": likely.map(|l| l[1]),
+            "likely_holds": r.bracket.and_then(|b| b.holds),
+        });
+        all.as_object().cloned().unwrap_or_default()
+    };
+    let rows = trials
         .iter()
-        .flat_map(|t| t.records.iter().map(of(t)))
-        .collect()
+        .flat_map(|t| t.records.iter().map(move |r| row(t, r)));
+    rows.collect()
 }
 
-/// The rows of some trials as CSV.
-#[must_use]
+/// Returns the rows of some trials as CSV.
 pub fn csv(trials: &[Trial]) -> String {
-    csv::records(rows(trials))
+    let rows = rows(trials);
+    let heads: Vec<&str> = rows
+        .first()
+        .map_or_else(Vec::new, |r| r.keys().map(String::as_str).collect());
+    let text = |value: &Value| match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    };
+    csv::table(
+        &heads,
+        rows.iter()
+            .map(|row| row.values().map(text).collect::<Vec<_>>()),
+    )
 }

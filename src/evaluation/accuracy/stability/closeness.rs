@@ -1,11 +1,11 @@
 //! What if coordinates are a little off: exactly displaced, displaced among digits, or rounded.
 
-use super::study::{Effort, Progress, Study, View};
 use crate::accuracy::Truth;
 use crate::accuracy::cases::Case;
 use crate::accuracy::change::{Noise, power_of_ten, turned_and_rounded};
 use crate::accuracy::said::{Reply, Said};
 use crate::accuracy::special::SpecialKind;
+use crate::accuracy::study::{Effort, Progress, Study, View};
 use crate::closure::Closure;
 use crate::file::text::mechanism_from_str;
 use crate::geom::Reals;
@@ -15,54 +15,47 @@ use crate::rank::method::auto::decide;
 use crate::rank::method::{MobilityMethod, registry};
 use crate::rank::numeric::Elimination;
 
-/// A special mechanism, and the coordinate of a joint's point or axis that takes it off.
+/// A coordinate that takes a special mechanism off: the joint, whether its axis is tilted instead of its point moved, and the coordinate.
+type Place = (usize, bool, usize);
+
+/// A special mechanism, the coordinate that takes it off, its displacement at distance 1, and the figures of the special one and of
+/// any other.
 struct Special {
     mechanism: Mechanism,
-    joint: usize,
-    axis: bool,
-    coordinate: usize,
-    /// The displacement at distance 1.
+    place: Place,
     unit: i64,
-    /// The figures of the special one, and of any other.
     truth: [Truth; 2],
 }
 
-/// A joint, whether its axis is tilted instead of its point moved, the coordinate, and the unit.
-type Place = (&'static str, bool, usize, i64);
-
-/// Built-in ones with their places; off these nothing moves.
-const BUILT_IN: [(&str, Place); 4] = [
-    ("bennett", ("1-2", false, 0, 40)),
-    ("parallelogram-3-rods", ("3-4", false, 1, 200)),
-    ("sarrus", ("2-3", true, 2, 1)),
-    ("collinear-truss", ("1-2", false, 1, 60)),
+/// Built-in ones with their joints, places and units. If they are off, nothing moves.
+const BUILT_IN: [(&str, &str, bool, usize, i64); 4] = [
+    ("bennett", "1-2", false, 0, 40),
+    ("parallelogram-3-rods", "3-4", false, 1, 200),
+    ("sarrus", "2-3", true, 2, 1),
+    ("collinear-truss", "1-2", false, 1, 60),
 ];
 
 impl Special {
     fn built_in(cases: &[Case]) -> impl Iterator<Item = Special> + '_ {
-        BUILT_IN
-            .into_iter()
-            .filter_map(|(name, (joint, axis, coordinate, unit))| {
-                let case = cases.iter().find(|c| c.name() == name)?;
-                let mechanism = case.mechanism.clone();
-                Some(Special {
-                    joint: mechanism.joints.iter().position(|j| j.id == joint)?,
-                    mechanism,
-                    axis,
-                    coordinate,
-                    unit,
-                    truth: [case.truth, Truth::new(0, 0)],
-                })
+        let of = |(name, joint, axis, coordinate, unit): (&str, &str, bool, usize, i64)| {
+            let case = cases.iter().find(|c| c.name() == name)?;
+            let mechanism = case.mechanism.clone();
+            let joint = mechanism.joints.iter().position(|j| j.id == joint)?;
+            Some(Special {
+                mechanism,
+                place: (joint, axis, coordinate),
+                unit,
+                truth: [case.truth, Truth::new(0, 0)],
             })
+        };
+        BUILT_IN.into_iter().filter_map(of)
     }
 
     fn drawn(kind: SpecialKind, noise: &mut Noise) -> Option<Special> {
-        let (mechanism, (joint, axis, coordinate)) = kind.with_place(noise)?;
+        let (mechanism, place) = kind.with_place(noise)?;
         Some(Special {
             mechanism,
-            joint,
-            axis,
-            coordinate,
+            place,
             unit: 1,
             truth: [false, true].map(|off| kind.figures(off)),
         })
@@ -70,16 +63,15 @@ impl Special {
 
     fn displaced(&self, exponent: i32) -> Mechanism {
         let mut m = self.mechanism.clone();
-        let joint = m.joints.get_mut(self.joint);
-        if let Some(joint) = joint {
+        let (joint, axis, coordinate) = self.place;
+        if let Some(joint) = m.joints.get_mut(joint) {
             let frame = &mut joint.frame;
-            let vector = if self.axis {
+            let x = &mut (if axis {
                 &mut frame.axis
             } else {
                 &mut frame.point
-            };
-            let by = &Expr::from(self.unit) * &power_of_ten(exponent);
-            vector[self.coordinate] = &vector[self.coordinate] + &by;
+            })[coordinate];
+            *x = &*x + &(&Expr::from(self.unit) * &power_of_ten(exponent));
         }
         m
     }
@@ -94,16 +86,11 @@ pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -
         Special::drawn(SpecialKind::ALL[i / each], &mut Noise::new(effort.seed, i))
     });
     let all: Vec<Special> = Special::built_in(cases).chain(drawn).collect();
-    let study = Study {
-        name: "stability-distance",
-        title: "Distance from special geometry",
-        axis: "displacement, relative to the size of the mechanism",
-        column: "displacement",
-        values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
-        view: View::Regions,
-        advice: "Write special geometry as fractions and roots, and take auto: floating point cannot tell it from its neighbours.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-distance",
+        exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        View::Regions,
+    );
     let names = registry::ALL.map(MobilityMethod::name);
     study.asked(names, all.len(), progress, |v, case| {
         let special = &all[case];
@@ -112,8 +99,7 @@ pub(super) fn distance(cases: &[Case], effort: Effort, progress: Progress<'_>) -
             (&special.mechanism, StateId::FREE, special.truth[0]),
             (&off, StateId::FREE, special.truth[1]),
         ];
-        let ask = |m: &&dyn MobilityMethod| Reply::of_method(*m, &pair);
-        registry::ALL.iter().map(ask).collect()
+        Reply::of_methods(&registry::ALL, &pair)
     })
 }
 
@@ -132,16 +118,11 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
     let offsets: Vec<f64> = (-14..=0)
         .flat_map(|e| leads.map(|lead| lead * 10f64.powi(e)))
         .collect();
-    let study = Study {
-        name: "stability-digits",
-        title: "Digits and offsets",
-        axis: "offset of one joint, relative to the size of the mechanism",
-        column: "offset",
-        values: offsets.iter().map(|o| o / SIZE).collect(),
-        view: View::Shares,
-        advice: "Write so many digits that an offset that matters is three units of the last one or more.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-digits",
+        offsets.iter().map(|o| o / SIZE).collect(),
+        View::Shares,
+    );
     let names = decimals.iter().map(|d| format!("{d} decimals"));
     study.asked(
         names,
@@ -172,18 +153,13 @@ pub(super) fn digits(effort: Effort, progress: Progress<'_>) -> Study {
 pub(super) fn tolerance(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let step = if effort.quick { 4 } else { 1 };
     let halves = (-30..=-6).step_by(step);
-    let study = Study {
-        name: "stability-tolerance",
-        title: "Tolerance of floating point",
-        axis: "tolerance, relative to the largest pivot or singular value",
-        column: "tolerance",
-        values: halves
+    let study = Study::new(
+        "stability-tolerance",
+        halves
             .map(|half| 10f64.powf(f64::from(half) / 2.0))
             .collect(),
-        view: View::Best,
-        advice: "Leave the tolerance at its default in double precision; in single precision choose a finer one.",
-        rows: Vec::new(),
-    };
+        View::Best,
+    );
     let tolerances = study.values.clone();
     let names = Elimination::ALL.map(|method| method.name());
     study.asked(names, cases.len(), progress, |v, n| {
@@ -211,16 +187,11 @@ pub(super) fn rounded(cases: &[Case], effort: Effort, progress: Progress<'_>) ->
     let (step, turns) = if effort.quick { (4, 1) } else { (1, 3) };
     // Finest first: the axis ascends.
     let decimals: Vec<i32> = (4..=16).rev().step_by(step).collect();
-    let study = Study {
-        name: "stability-rounded",
-        title: "Built-in mechanisms turned and rounded",
-        axis: "unit in the last decimal of points and axes",
-        column: "unit",
-        values: decimals.iter().map(|d| 10f64.powi(-d)).collect(),
-        view: View::Shares,
-        advice: "Give six decimals or more; no tolerance of singular values suits all digits.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-rounded",
+        decimals.iter().map(|d| 10f64.powi(-d)).collect(),
+        View::Shares,
+    );
     let names = [
         "W",
         "finite mobility",

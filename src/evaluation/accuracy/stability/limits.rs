@@ -1,11 +1,11 @@
 //! How far methods reach: size, unit of length, order of shakiness, and how small a prime may be.
 
-use super::study::{Effort, Progress, Study, View};
 use crate::accuracy::Truth;
 use crate::accuracy::cases::Case;
 use crate::accuracy::change::{Noise, resized};
 use crate::accuracy::lattice::{self, LatticeKind, toggles};
 use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::study::{Effort, Progress, Study, View};
 use crate::accuracy::timing::Stopwatch;
 use crate::closure::Closure;
 use crate::file::text::mechanism_from_str;
@@ -30,16 +30,11 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
         (&SIZES[..], 2.0)
     };
     let slow = Mutex::new(HashSet::new());
-    let study = Study {
-        name: "stability-size",
-        title: "Size",
-        axis: "independent contours",
-        column: "contours",
-        values: sizes.iter().map(|&k| f64::from(k)).collect(),
-        view: View::Times,
-        advice: "Beyond 30 contours take the mobility at the pose (modular): motions are not followed there.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-size",
+        sizes.iter().map(|&k| f64::from(k)).collect(),
+        View::Times,
+    );
     let names = registry::ALL.map(MobilityMethod::name);
     study.asked(names, SHAPES.len(), progress, |v, case| {
         let m = lattice::mechanism(SHAPES[case], sizes[v] as usize);
@@ -67,16 +62,11 @@ pub(super) fn size(effort: Effort, progress: Progress<'_>) -> Study {
 pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let step = if effort.quick { 3 } else { 1 };
     let exponents: Vec<i32> = (-6..=6).step_by(step).collect();
-    let study = Study {
-        name: "stability-scale",
-        title: "Unit of length",
-        axis: "all lengths multiplied by",
-        column: "factor",
-        values: exponents.iter().map(|&e| 10f64.powi(e)).collect(),
-        view: View::Regions,
-        advice: "Any unit suits auto; for single precision take one in which the mechanism is some units large.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-scale",
+        exponents.iter().map(|&e| 10f64.powi(e)).collect(),
+        View::Regions,
+    );
     let names = Elimination::ALL
         .map(|e| e.name())
         .into_iter()
@@ -93,9 +83,7 @@ pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
                 truth,
             } = &cases[case];
             let m = resized(mechanism, exponents[v]);
-            let ask =
-                |method: &&dyn MobilityMethod| Reply::of_method(*method, &[(&m, *state, *truth)]);
-            methods.iter().map(ask).collect()
+            Reply::of_methods(&methods, &[(&m, *state, *truth)])
         },
     )
 }
@@ -103,24 +91,17 @@ pub(super) fn scale(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
 /// Returns the study of rows of toggles that have one freedom at the pose and none in truth.
 pub(super) fn shaky(effort: Effort, progress: Progress<'_>) -> Study {
     let (each, most) = if effort.quick { (1, 3) } else { (3, 6) };
-    let study = Study {
-        name: "stability-shaky",
-        title: "Order of shakiness",
-        axis: "order of shakiness",
-        column: "order",
-        values: (1..=most).map(|l| f64::from(1u32 << l)).collect(),
-        view: View::Regions,
-        advice: "If auto gives a range beyond the second order, the rest of the motion is too small to decide: measure it.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-shaky",
+        (1..=most).map(|l| f64::from(1u32 << l)).collect(),
+        View::Regions,
+    );
     let truth = Truth::new(1, 0);
     let names = registry::ALL.map(MobilityMethod::name);
     study.asked(names, each, progress, |v, case| {
         let text = toggles(v + 1, &mut Noise::new(effort.seed, 100 * (v + 1) + case));
         let m = mechanism_from_str("toggles.toml", &text).expect("a generated file is valid");
-        let ask =
-            |method: &&dyn MobilityMethod| Reply::of_method(*method, &[(&m, StateId::FREE, truth)]);
-        registry::ALL.iter().map(ask).collect()
+        Reply::of_methods(&registry::ALL, &[(&m, StateId::FREE, truth)])
     })
 }
 
@@ -137,16 +118,11 @@ pub(super) fn prime(cases: &[Case], effort: Effort, progress: Progress<'_>) -> S
     let largest = ExactField::of_prime((1 << 61) - 1);
     let rational = |c: &&Case| Closure::new(&largest, &c.mechanism, c.state).is_ok();
     let cases: Vec<&Case> = cases.iter().filter(rational).collect();
-    let study = Study {
-        name: "stability-prime",
-        title: "Size of the prime",
-        axis: "bits of the prime",
-        column: "bits",
-        values: BITS.map(f64::from).to_vec(),
-        view: View::Errors(2 * CONTOURS),
-        advice: "Nothing: primes near 2^61 cost no more time than small ones, and err in fewer than one of 10^17 cases.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-prime",
+        BITS.map(f64::from).to_vec(),
+        View::Errors(2 * CONTOURS),
+    );
     let each = if effort.quick { 500 } else { 4_000 };
     let watch = Stopwatch {
         clock: effort.clock,

@@ -1,10 +1,10 @@
 //! The value of a smaller model of a scene, and whether the first idea stays first if costs and proportions change.
 
-use super::study::{Effort, Progress, Study, View};
 use crate::accuracy::cases::Case;
 use crate::accuracy::change::{Noise, stretched};
 use crate::accuracy::lattice::{Scene, ladder};
 use crate::accuracy::said::{Reply, Said};
+use crate::accuracy::study::{Effort, Progress, Study, View};
 use crate::accuracy::timing::{Stopwatch, Timing};
 use crate::closure::Closure;
 use crate::closure::contour::contour_basis;
@@ -25,16 +25,11 @@ const CONTOURS: [usize; 8] = [1, 2, 3, 4, 6, 9, 14, 20];
 /// with that by all rows in space, which is the truth. Times are multiples of the time by all rows.
 pub(super) fn model(cases: &[Case], effort: Effort, progress: Progress<'_>) -> Study {
     let each = if effort.quick { 4 } else { 32 };
-    let study = Study {
-        name: "stability-model",
-        title: "Least model of a scene",
-        axis: "independent contours",
-        column: "contours",
-        values: CONTOURS.map(|k| k as f64).to_vec(),
-        view: View::Ratios,
-        advice: "Nothing: all rows are faster than finding the least. If planar mode omits freedoms, the analysis names their joints.",
-        rows: Vec::new(),
-    };
+    let study = Study::new(
+        "stability-model",
+        CONTOURS.map(|k| k as f64).to_vec(),
+        View::Ratios,
+    );
     let rows = Scene::ALL.map(Scene::name).into_iter();
     let rows = rows.chain(["built-in mechanisms"]);
     let watch = Stopwatch {
@@ -111,16 +106,7 @@ pub(super) fn first_idea(cases: &[Case], effort: Effort, progress: Progress<'_>)
     let offers = free.filter(|m| m.joints.iter().any(|j| !j.options.is_empty()));
     let ideas = offers.filter_map(|m| Some((m, first(m, 10)?)));
     let ideas: Vec<_> = ideas.collect();
-    let study = Study {
-        name: "stability-first-idea",
-        title: "Does the first idea stay first",
-        axis: "largest change of costs, or of lengths along an axis",
-        column: "change",
-        values: values.to_vec(),
-        view: View::Best,
-        advice: "Look at the ideas of nearly the same cost too: if the first does not stay first, one of them does.",
-        rows: Vec::new(),
-    };
+    let study = Study::new("stability-first-idea", values.to_vec(), View::Best);
     let names = [
         "first among costs",
         "among the first ten",
@@ -154,11 +140,6 @@ fn repriced(m: &Mechanism, by: f64, noise: &mut Noise) -> Mechanism {
         for option in joint.options.iter_mut().chain(&mut joint.unloading) {
             let factor = factors.entry(option.name.clone());
             let factor = factor.or_insert_with(|| 1.0 + by * noise.uniform());
-            #[allow(
-                clippy::cast_precision_loss,
-                clippy::cast_possible_truncation,
-                reason = "thousandths of a joint"
-            )]
             let cost = (costs.option(option) as f64 * *factor).round() as i64;
             option.cost_milli = Some(cost);
         }

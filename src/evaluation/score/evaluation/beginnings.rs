@@ -1,9 +1,9 @@
-//! What variants that begin alike can score at best.
+//! Bounds on the scores of all variants that share their first choices.
 //!
-//! Every option of a joint keeps its present motion, so the equations of the present freedoms hold for all variants, and each
-//! choice adds those of its further freedoms. Once the equations have full rank the reactions are known, whatever is chosen for
-//! the joints that are left: these only say how much of a capacity they take. So a whole branch of variants has a bound long
-//! before its choices are made.
+//! Every option of a joint keeps its original motion, so the equations of the original freedoms hold for all variants. Each choice
+//! adds those of its further freedoms. Once the equations have full rank, the reactions are known for all choices of the remaining
+//! joints. These choices then only determine the capacities. A branch of variants therefore has a bound long before all its choices
+//! are made.
 
 use crate::geom::vector::length;
 use crate::model::ranking::{ClearanceSum, Ranking};
@@ -18,10 +18,10 @@ use crate::statics::reactions::geometry::Six;
 
 /// Pivots below this are none: rows are unit twists.
 const PIVOT: f64 = 1e-9;
-/// Where a pivot was below this, reactions are not told: rounding is not to end a branch.
+/// Reactions count as unknown if a pivot is below this, because rounding must not end a branch.
 const SURE: f64 = 1e-5;
-/// Work of the loads on undriven motions above this fraction of them has no equilibrium: far above what is none where whole
-/// variants are scored, which decides what is between.
+/// Loads have no equilibrium if their work on undriven motions is above this fraction of them. The limit for whole variants is far
+/// lower, and decides the cases in between.
 const WORK: f64 = 1e-6;
 
 /// A joint's place, and what it bears by the unknowns.
@@ -33,7 +33,7 @@ struct LoadedPlace {
     contours: Vec<(usize, f64)>,
     /// Force and moment in each load case where the unknowns are 0.
     fixed: Vec<[f64; 6]>,
-    /// What each unknown of a contour adds.
+    /// The contribution of each unknown of a contour.
     across: Vec<[f64; 6]>,
 }
 
@@ -55,12 +55,12 @@ pub(in crate::score) struct Beginnings {
     of_variable: Vec<Vec<usize>>,
     /// By variable, choice and slot.
     limits: Vec<Vec<Vec<LoadLimits>>>,
-    /// The least of all choices, by variable and slot.
+    /// The least limits of all choices, by variable and slot.
     least: Vec<Vec<LoadLimits>>,
 }
 
 impl Evaluator<'_> {
-    /// The pose that tells most about variants, that in which a good one scores worst, as branches of variants need it.
+    /// Returns the pose in which the given good variant scores worst, prepared for branches of variants. Its bounds are the strongest.
     pub(in crate::score) fn beginnings(
         &self,
         of: &Assignment,
@@ -80,7 +80,7 @@ impl Evaluator<'_> {
 }
 
 impl Beginnings {
-    /// Of a pose; `None` where couplings pass something, since what passes beside a joint depends on what is chosen there.
+    /// Prepares a pose. Returns `None` if there are couplings, because the load that bypasses a joint depends on the choice there.
     ///
     /// # Complexity
     /// O(places · options · freedoms³).
@@ -164,7 +164,7 @@ impl Beginnings {
         });
     }
 
-    /// The beginning of all: nothing is chosen.
+    /// Returns the beginning without choices.
     pub(in crate::score) fn begin(&self) -> Begun<'_> {
         let mut out = Begun {
             of: self,
@@ -202,7 +202,7 @@ pub(in crate::score) struct Begun<'b> {
     chosen: Vec<Vec<LoadLimits>>,
     /// Whether the reactions are known.
     known: bool,
-    /// The places in the order in which they are looked at: the last one that ended a branch first.
+    /// The places in the order of examination. The last one that ended a branch comes first.
     order: Vec<usize>,
     /// Whether what unit forces on the outputs pass is known, too.
     errors: bool,
@@ -227,11 +227,12 @@ pub(in crate::score) struct TakenChoice {
 }
 
 impl Begun<'_> {
-    /// Takes a choice; false where the loads have no equilibrium then, whatever else is chosen. Give it back all the same.
+    /// Takes a choice. The flag is false if the loads have no equilibrium for any further choices. The choice must be given back in any
+    /// case.
     ///
     /// # Complexity
-    /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on. Where the
-    /// reactions become known by it, [`Begun::peaks`] has to be asked before what follows.
+    /// O(unknowns · width) for each further freedom, once on the way O(unknowns²), and O(unknowns) for each from there on. If the
+    /// reactions become known by it, call [`Begun::peaks`] before the next choice.
     pub(in crate::score) fn take(&mut self, variable: usize, choice: usize) -> (TakenChoice, bool) {
         let of = self.of;
         let mut taken = TakenChoice {
@@ -253,7 +254,7 @@ impl Begun<'_> {
         (taken, held)
     }
 
-    /// Gives back the last choice.
+    /// Removes the last choice.
     pub(in crate::score) fn give_back(&mut self, taken: TakenChoice) {
         self.pivots.truncate(taken.rows);
         self.weakest.truncate(taken.rows);
@@ -276,7 +277,7 @@ impl Begun<'_> {
         self.pivots.len() == self.of.unknowns && self.weakest.last().is_none_or(|w| *w > SURE)
     }
 
-    /// Adds an equation, reduced by those before it; false where it says that loads do work on a motion nothing drives.
+    /// Adds an equation, reduced by those before it. Returns false if loads do work on a motion that nothing drives.
     fn insert(&mut self, row: &[f64]) -> bool {
         let (width, unknowns) = (self.of.width, self.of.unknowns);
         self.row.clear();

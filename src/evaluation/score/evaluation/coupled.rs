@@ -13,11 +13,11 @@ pub(in crate::score) struct PlacedCoupling {
     pub(in crate::score) coupling: usize,
     /// The end that is the joint's.
     pub(in crate::score) end: usize,
-    /// What it passes beside the joint, for 1 of its unknown: without teeth, and with them.
+    /// The load that bypasses the joint for a unit of its unknown, without teeth and with them.
     pub(in crate::score) beside: [Six; 2],
 }
 
-/// What a choice makes of a coupling at its joint.
+/// The effect of a choice on a coupling at its joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::score) enum CoupledChoice {
     /// It bears what the teeth push.

@@ -24,7 +24,7 @@ pub struct Scratch {
 pub enum Ended {
     /// With a solution; the greatest first right side left in the equations beyond the unknowns.
     Solved {
-        /// What is left over.
+        /// The largest residual.
         left: f64,
     },
     /// The equations do not determine the unknowns.

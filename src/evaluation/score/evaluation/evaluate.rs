@@ -37,7 +37,7 @@ pub enum ScoreError {
     Cases(#[from] CaseError),
 }
 
-/// What a joint bears in one pose, without what its drive does.
+/// The load of a joint in one pose, without the part that its drive bears.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::score) struct PoseLoad {
     pub(in crate::score) joint: JointId,
@@ -54,13 +54,13 @@ pub(in crate::score) struct PoseLoad {
 pub struct Evaluator<'s> {
     /// The search.
     pub search: &'s Search,
-    /// What joints bear.
+    /// Capacities of joints.
     pub types: JointTypes,
     /// How clearances add up.
     pub clearance: ClearanceSum,
     /// The freedoms that drives hold.
     pub drives: Vec<Driven>,
-    /// The poses looked at with their loads.
+    /// The examined poses with their loads.
     pub cases: Cases,
     pub(in crate::score) outputs: Vec<(LinkId, [f64; 3])>,
     tables: Vec<PoseTable>,
@@ -72,7 +72,7 @@ impl<'s> Evaluator<'s> {
     /// Makes everything ready that does not depend on the variant, for the states with loads.
     ///
     /// # Errors
-    /// Where a coordinate has no value, or singular values do not converge.
+    /// Returns an error if a coordinate has no value, or if singular values do not converge.
     ///
     /// # Complexity
     /// O(poses · options · loads), and the poses of the stroke.
@@ -80,10 +80,10 @@ impl<'s> Evaluator<'s> {
         Evaluator::in_states(search, clearance, &[])
     }
 
-    /// The same for the states named; for those with loads where none are.
+    /// Does the same for the named states, or for those with loads if none are named.
     ///
     /// # Errors
-    /// As [`Evaluator::new`], and where a grip loads nothing.
+    /// As [`Evaluator::new`], and if a grip loads nothing.
     pub fn in_states(
         search: &'s Search,
         clearance: ClearanceSum,
@@ -132,8 +132,8 @@ impl<'s> Evaluator<'s> {
         self.scores_and_loads(variant, scratch, &mut |_| {})
     }
 
-    /// The same, and `each` is told what every joint bears in every pose; where the fast way turns out not to serve, it is
-    /// told all over again by the slow one.
+    /// Does the same, and calls `each` with the load of every joint in every pose. If the fast method fails, the slow one calls it
+    /// again for all.
     pub(in crate::score) fn scores_and_loads(
         &self,
         variant: &Assignment,
@@ -282,7 +282,7 @@ impl SolvedPose<'_> {
         }
     }
 
-    /// What the clearances let an output move.
+    /// Returns the motion of an output that the clearances allow.
     fn output_error(&self, output: usize, clearance: ClearanceSum) -> f64 {
         let mut error = ErrorSum::new(clearance);
         for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! What each joint of a variant bears.
+//! Loads of each joint of a variant.
 
 use crate::score::evaluation::elimination::Scratch;
 use crate::score::evaluation::evaluate::{Evaluator, PoseLoad, ScoreError};
@@ -10,7 +10,7 @@ use crate::search::answer::k_best::Assignment;
 use crate::statics::reactions::Unsolved;
 use rayon::prelude::*;
 
-/// The most that a joint bears over the poses looked at.
+/// The largest loads of a joint over the examined poses.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Bearing {
     /// Force `[N]`.
@@ -19,7 +19,7 @@ pub struct Bearing {
     pub moment: f64,
     /// Force over capacity.
     pub force_share: f64,
-    /// Moment over capacity; `None` where the joint bears none and need not.
+    /// Moment over capacity; `None` if the joint bears none and need not.
     pub moment_share: Option<f64>,
 }
 
@@ -37,11 +37,11 @@ impl Bearing {
 }
 
 impl Evaluator<'_> {
-    /// The scores of a variant and, for each joint of the mechanism in file order, the most it bears; an unloading joint
-    /// counts as the one it is in series with. `None` stands for joints that are not there in the free state.
+    /// Returns the scores of a variant and the largest loads of each joint of the mechanism, in file order. An unloading joint counts as
+    /// the one it is in series with. The entry of a joint that the free state does not have is `None`.
     ///
     /// # Errors
-    /// [`Unsolved`] where the loads have no equilibrium.
+    /// Returns [`Unsolved`] if the loads have no equilibrium.
     ///
     /// # Complexity
     /// That of [`Evaluator::scores`].
@@ -58,21 +58,21 @@ impl Evaluator<'_> {
     }
 }
 
-/// What the joints of some variants bear.
+/// Loads of the joints of some variants.
 #[derive(Debug, Clone)]
 pub struct Bearings {
-    /// How many poses were looked at.
+    /// Number of examined poses.
     pub poses: usize,
-    /// Where the stroke could be followed no further, in the drive's unit.
+    /// The position at which following the stroke ended early, in the drive's unit.
     pub stopped: Option<f64>,
-    /// Of each variant its scores and what each joint bears; `None` where its loads have no equilibrium.
+    /// The scores and the loads of each joint for each variant; `None` if its loads have no equilibrium.
     pub of: Vec<Option<(Scores, Vec<Option<Bearing>>)>>,
 }
 
 impl Outcome {
-    /// What the joints of some variants bear, in the states of the ranking or else in those with loads; `None` where the file
-    /// states no loads and no ranking was asked for. Scores of a ranking are made for its whole pool; bearings are not, so
-    /// they are had here for the few that are shown.
+    /// Returns the loads of the joints of some variants, in the states of the ranking or else in those with loads. Returns `None` if the
+    /// file states no loads and there is no ranking. A ranking scores its whole pool, but computes no loads of joints. This does so
+    /// for the few variants that are shown.
     ///
     /// # Errors
     /// As [`Evaluator::in_states`].

@@ -36,7 +36,7 @@ pub enum CaseError {
          joints; name the states that count: [ranking] states = [\"free\"]"
     )]
     OtherJoints(String),
-    /// Each lever has a drive of its own.
+    /// Each lever has its own drive.
     #[error(
         "the grip's loads are ranked under one drive, and the mechanism has {0}; name the states that count: [ranking] \
          states = [\"free\"]"
@@ -54,13 +54,13 @@ pub enum CaseError {
 pub struct LoadCase {
     /// Position of the first drive since the pose of the file: `[rad]`, or the file's unit.
     pub drive: f64,
-    /// The pose of the mechanism as it is.
+    /// The pose of the original mechanism.
     pub pose: Pose,
     /// The loads.
     pub loads: Loads,
 }
 
-/// What the grip has to do with the cases.
+/// The part of a grip in the cases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gripped {
     /// The state with the contacts.
@@ -80,7 +80,7 @@ pub struct Cases {
     pub free: usize,
     /// The first position of the stroke that could not be reached.
     pub stopped: Option<f64>,
-    /// Where the others come from.
+    /// The grips that give the other loads.
     pub gripped: Vec<Gripped>,
 }
 
@@ -92,14 +92,12 @@ fn free_is_loaded(m: &Mechanism) -> bool {
 }
 
 /// Whether the file loads any state.
-#[must_use]
 pub(crate) fn is_loaded(m: &Mechanism) -> bool {
     free_is_loaded(m) || m.state_ids().any(|s| grip_of(m, s).is_some())
 }
 
 /// The states that count where the ranking names none: those with loads, the free one also where it has a stroke to be
 /// conditioned over or nothing else is loaded.
-#[must_use]
 pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
     let gripped = m.state_ids().skip(1).filter(|&s| grip_of(m, s).is_some());
     let gripped: Vec<StateId> = gripped.collect();
@@ -110,7 +108,7 @@ pub(crate) fn states_with_loads(m: &Mechanism) -> Vec<StateId> {
         .collect()
 }
 
-/// The cases of some states; of those with loads where none are named.
+/// Returns the cases of some states, or of those with loads if none are named.
 ///
 /// # Errors
 /// [`CaseError`].

@@ -1,4 +1,4 @@
-//! What a choice lets a place bear.
+//! Capacities that a choice gives a place.
 
 use crate::score::evaluation::pose_tables::Cell;
 
@@ -7,14 +7,14 @@ use crate::score::evaluation::pose_tables::Cell;
 pub(super) struct LoadLimits {
     /// One over the least capacity of the joints in series. `[1/N]`
     pub(super) force: f64,
-    /// The same for moments `[1/(N·m)]`; 0 where none is borne.
+    /// The same for moments `[1/(N·m)]`; 0 if none is borne.
     pub(super) moment: f64,
     /// `[m]`
     pub(super) clearance: f64,
 }
 
 impl LoadLimits {
-    /// Of the joints that a choice puts at a place.
+    /// Returns the limits of the joints that a choice puts at a place.
     pub(super) fn of(cell: &Cell) -> LoadLimits {
         let forces = cell.bears.iter().map(|b| 1.0 / b.0);
         let moments = cell.bears.iter().filter_map(|b| b.1);
@@ -25,7 +25,7 @@ impl LoadLimits {
         }
     }
 
-    /// The least of each.
+    /// Returns the least of each limit.
     pub(super) fn least(self, other: LoadLimits) -> LoadLimits {
         LoadLimits {
             force: self.force.min(other.force),

@@ -1,10 +1,9 @@
-//! The least that the terms of any variant can be.
+//! Lower bounds on the terms of every variant.
 //!
-//! Every option of a joint keeps its present motion, and loads do no work on a motion of the mechanism but through the
-//! reactions: one equation for each present freedom, which the reactions of all variants satisfy, whatever else they do. The
-//! best that reactions could do under these equations alone is a convex problem; it is solved by least squares with weights
-//! that follow the reactions (for peaks [Lawson 1961], for sums of sizes [Weiszfeld 1937]), and each step's dual gives a
-//! bound that holds whether or not the steps have converged.
+//! Every option of a joint keeps its original motion. The reactions of all variants therefore satisfy one equation for each original
+//! freedom: the work of loads on it is that of the reactions. The least peaks and sums under these equations alone are a convex problem.
+//! It is solved by least squares with weights that follow the reactions (for peaks [Lawson 1961], for sums of sizes [Weiszfeld
+//! 1937]). The dual of each step gives a bound that holds whether or not the steps have converged.
 
 use crate::geom::vector::{dot, length};
 use crate::model::ranking::ClearanceSum;
@@ -26,11 +25,11 @@ struct AffineLoads {
     limit: f64,
     /// The vector where the open coordinates are 0.
     fixed: [f64; 3],
-    /// What each open coordinate adds.
+    /// The contribution of each open coordinate.
     open: Vec<[f64; 3]>,
 }
 
-/// What the common equations say of the contours' wrenches.
+/// The solutions of the common equations for the contours' wrenches.
 struct Common {
     /// A solution, unknowns × cases.
     solution: Vec<f64>,
@@ -39,11 +38,10 @@ struct Common {
 }
 
 impl Evaluator<'_> {
-    /// Lower bounds for every variant of the search; 0 where none is known.
+    /// Returns lower bounds for every variant of the search, 0 if none is known.
     ///
     /// # Complexity
     /// Some hundred least squares problems of 3 joints × freedoms for each pose and output, the first time.
-    #[must_use]
     pub fn floor(&self) -> Floor {
         *self.floor.get_or_init(|| self.least())
     }
@@ -165,8 +163,8 @@ fn common(table: &PoseTable) -> Option<Common> {
     Some(Common { solution, open })
 }
 
-/// Whether a unit twist with its entries in couplings, so many numbers, is in the span of others; the right sides follow, being
-/// linear in the twist.
+/// Returns whether a unit twist, with its entries in couplings up to the given width, is in the span of others. Its right sides are then
+/// determined, because they are linear in the twist.
 pub(in crate::score) fn within(row: &[f64], others: &[Vec<f64>], width: usize) -> bool {
     let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let clear = |mut v: Vec<f64>, basis: &[Vec<f64>]| {
@@ -189,7 +187,7 @@ pub(in crate::score) fn within(row: &[f64], others: &[Vec<f64>], width: usize) -
     inner(&rest, &rest).sqrt() <= NONE
 }
 
-/// What a place bears in one load case, by all unknowns, as far as the common equations tell.
+/// Returns the load of a place in one load case, as a function of the coordinates that the common equations leave open.
 fn part(
     table: &PoseTable,
     common: &Common,
@@ -239,7 +237,6 @@ fn weighted_least(parts: &[AffineLoads], weights: &[f64]) -> Option<Vec<[f64; 3]
 /// A bound below the greatest |vector| / limit: for z = weight · vector at the least squares, Σ z · vector is the same for
 /// all that is open, and at most Σ |z| limit · peak.
 fn least_peak(parts: &[AffineLoads]) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     let mut share = vec![1.0 / parts.len().max(1) as f64; parts.len()];
     let mut best = 0.0;
     for _ in 0..STEPS {

@@ -18,7 +18,7 @@ use crate::statics::reactions::drives::{Driven, period};
 use crate::statics::reactions::geometry::{FreedomColumn, Geometry, Six, about, power, wrench};
 use crate::statics::reactions::loads::link_loads;
 
-/// What a choice puts at one joint.
+/// The joints that a choice puts at one place.
 #[derive(Debug, Clone)]
 pub(in crate::score) struct Cell {
     /// Equations, each its twist in the wrench basis, its entries in the couplings, and then its right sides.
@@ -29,7 +29,7 @@ pub(in crate::score) struct Cell {
     pub(in crate::score) bears: Vec<(f64, Option<f64>)>,
     /// Sum of their clearances `[m]`.
     pub(in crate::score) clearance: f64,
-    /// What it makes of each coupling at the joint.
+    /// Its effect on each coupling at the joint.
     pub(in crate::score) coupled: Vec<CoupledChoice>,
 }
 
@@ -114,7 +114,7 @@ fn wrenches(
     out
 }
 
-/// The joints that a choice puts in series, each with whether it is the present one.
+/// Returns the joints that a choice puts in series, each with whether it is the original one.
 fn in_series<'j>(
     joint: &'j Joint,
     choice: &Choice,
@@ -182,7 +182,7 @@ impl PoseTable {
         &self.cells[place.variable][choices[place.variable]][place.slot]
     }
 
-    /// How many unknowns the equations have: wrenches round the contours, then what couplings pass.
+    /// Returns the number of unknowns of the equations: wrenches of the contours, then loads of the couplings.
     pub(in crate::score) fn unknowns(&self) -> usize {
         self.basis.len() * self.contours + self.couplings
     }
@@ -322,7 +322,7 @@ fn cell<'o>(
     Ok(out)
 }
 
-/// What an option of these freedoms makes of the couplings at its place, the first in series or one behind it.
+/// Returns the effect of an option with these freedoms on the couplings at its place, as the first in series or as a later one.
 fn coupled(
     geometry: &Geometry,
     place: &PlacedJoint,

@@ -1,4 +1,4 @@
-//! The scores of a variant the plain way: built as a mechanism and solved by singular values.
+//! Scores of a variant that is built as a mechanism and solved by singular values.
 
 use crate::geom::expr::Expr;
 use crate::geom::vector::length;
@@ -14,7 +14,7 @@ use crate::search::check::variant_mechanism;
 use crate::statics::reactions::follow::follow_to;
 use crate::statics::reactions::{JointReaction, Reactions, Uniqueness, Unsolved};
 
-/// Force and moment of a joint without what its drive bears.
+/// Returns force and moment of a joint without the part that its drive bears.
 fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     let (mut f, mut m) = (r.force, r.moment);
     let held = r
@@ -28,7 +28,7 @@ fn borne(r: &JointReaction) -> ([f64; 3], [f64; 3]) {
     (f, m)
 }
 
-/// Raises the peaks to the reactions of a realized variant, and tells of each.
+/// Raises the peaks to the reactions of a realized variant, and calls `each` with each load.
 fn raise_peaks(
     scores: &mut Scores,
     reactions: &[JointReaction],
@@ -51,7 +51,7 @@ fn raise_peaks(
     }
 }
 
-/// A unit force along an axis on a point of a link, and nothing else.
+/// Returns a unit force along an axis on a point of a link as the only load.
 fn unit_force(link: LinkId, point: [f64; 3], axis: usize) -> Loads {
     let force = ExternalForce {
         link,
@@ -76,7 +76,7 @@ impl Evaluator<'_> {
         self.slowly_with(variant, &mut |_| {})
     }
 
-    /// The same, and `each` is told what every joint bears in every pose.
+    /// Does the same, and calls `each` with the load of every joint in every pose.
     pub(in crate::score) fn slowly_with(
         &self,
         variant: &Assignment,

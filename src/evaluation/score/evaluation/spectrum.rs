@@ -109,7 +109,6 @@ fn add(out: &mut [f64], factor: f64, row: &[f64]) {
 /// Greatest and smallest eigenvalue of a symmetric tridiagonal matrix, not indefinite, whose eigenvalues are at most `bound`.
 /// The two are sought side by side, so that the divisions of one fill the waiting times of the other.
 fn ends(d: &[f64], e: &[f64], bound: f64) -> [f64; 2] {
-    #[allow(clippy::cast_precision_loss, reason = "counts are small")]
     let n = d.len() as f64;
     let mut x = [bound * (1.0 + 1e-12), -1e-17 * bound];
     let mut done = [false; 2];

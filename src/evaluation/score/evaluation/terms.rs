@@ -23,7 +23,7 @@ impl Peak {
         joint: JointId::new(0),
     };
 
-    /// Takes the greater of two, the first where they are alike.
+    /// Raises the peak to a value, unless it is as large already.
     pub(in crate::score) fn raise(&mut self, value: f64, capacity: f64, joint: JointId) {
         let utilisation = value / capacity;
         if utilisation > self.utilisation {
@@ -36,7 +36,7 @@ impl Peak {
     }
 }
 
-/// What a variant scores, the worst over the poses looked at.
+/// The scores of a variant, the worst over the examined poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scores {
     /// Greatest force over capacity.
@@ -59,10 +59,8 @@ pub struct Scores {
     pub minimum_norm: bool,
 }
 
-#[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
 impl Scores {
-    /// The figure of a term as it is told: utilisations, a ratio, metres, counts.
-    #[must_use]
+    /// Returns the figure of a term as it is reported: utilisations, a ratio, metres, counts.
     pub fn value(&self, term: Term) -> f64 {
         match term {
             Term::PeakForce => self.force.utilisation,
@@ -76,8 +74,7 @@ impl Scores {
         }
     }
 
-    /// The joint that bears most, where the term is such a peak.
-    #[must_use]
+    /// Returns the joint with the largest share of its capacity, if the term is a peak.
     pub fn peak(&self, term: Term) -> Option<&Peak> {
         match term {
             Term::PeakForce => Some(&self.force),
@@ -86,8 +83,7 @@ impl Scores {
         }
     }
 
-    /// The figure as it stands in a list: what is measured to four decimals, lengths in millimetres.
-    #[must_use]
+    /// Returns the figure as text for a list: measured ones with four decimals, lengths in millimetres.
     pub fn cell(&self, term: Term) -> String {
         let (about, value) = (term.about(), self.value(term));
         if about.is_count {
@@ -97,10 +93,9 @@ impl Scores {
         }
     }
 
-    /// What a term adds to a weighted sum, smaller being better: the figure, for conditioning minus its decimal logarithm,
-    /// for the output error millimetres. What is measured counts to eleven digits: mirror images score alike, and
-    /// rounding must not put one before the other.
-    #[must_use]
+    /// Returns the contribution of a term to a weighted sum; smaller is better. It is the figure, for conditioning minus its decimal
+    /// logarithm, and for the output error millimetres. Measured figures count to eleven digits, because rounding must not sort
+    /// mirror images.
     pub fn loss(&self, term: Term) -> f64 {
         let coarse = |x: f64| f64::from_bits((x.to_bits() + 0x8000) & !0xffff);
         let about = term.about();
@@ -113,14 +108,12 @@ impl Scores {
     }
 
     /// Σ weight · loss.
-    #[must_use]
     pub fn weighted(&self, ranking: &Ranking) -> f64 {
         let terms = ranking.terms.iter();
         terms.map(|&(term, weight)| weight * self.loss(term)).sum()
     }
 
     /// Whether the figures are within all limits of a ranking.
-    #[must_use]
     pub fn within_limits(&self, ranking: &Ranking) -> bool {
         ranking.limits.iter().all(|l| {
             let x = self.value(l.term);
@@ -128,7 +121,7 @@ impl Scores {
         })
     }
 
-    /// The worse of two poses' scores.
+    /// Takes the worse figures of two poses.
     pub(in crate::score) fn worse(&mut self, other: &Scores) {
         if other.force.utilisation > self.force.utilisation {
             self.force = other.force;
@@ -142,9 +135,8 @@ impl Scores {
     }
 }
 
-/// A point of each output link, in the file's unit: where the first force of the cases on it acts, else its mass centre, else
-/// its first joint.
-#[must_use]
+/// Returns a point of each output link, in the file's unit: the point of its first force, its mass centre if it has no force, or its
+/// first joint.
 pub fn output_points(m: &Mechanism, cases: &Cases) -> Vec<(LinkId, [f64; 3])> {
     let outputs = m.link_ids().filter(|&l| m.links[l].role == Role::Output);
     let each = outputs.filter_map(|l| {
@@ -227,12 +219,11 @@ pub struct Floor {
 
 impl Floor {
     /// Σ weight · bound over the terms but cost; those without a bound are at least 0.
-    #[must_use]
     pub fn weighted(&self, ranking: &Ranking) -> f64 {
         ranking.terms.iter().map(|&(t, w)| w * self.of(t)).sum()
     }
 
-    /// The bound on what a term adds to a sum.
+    /// Returns the bound on the contribution of a term to a sum.
     pub(in crate::score) fn of(&self, term: Term) -> f64 {
         match term {
             Term::PeakForce => self.force,

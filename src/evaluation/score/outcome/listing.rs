@@ -19,7 +19,7 @@ use num_traits::Zero;
 use std::fmt;
 
 impl Request {
-    /// How many of the cheapest variants are looked at, to give the list that is asked for; 0 where it takes all, or none.
+    /// Returns how many of the cheapest variants the requested list needs; 0 if it needs all, or none.
     pub(in crate::score) fn cheapest(&self, mechanism: &Mechanism) -> Result<usize, RequestError> {
         let List::Top(top) = self.list else {
             return Ok(0);
@@ -41,27 +41,23 @@ impl Request {
 impl Outcome {
     /// The variants asked for, one by one: the best in order, all, or a sample. No more than a thousand are held at a time,
     /// and second opinions are had in parallel.
-    #[must_use]
     pub fn variants(&self) -> Variants<'_> {
         self.variants_unless(&|| false)
     }
 
     /// The same until `cancelled`.
-    #[must_use]
     pub fn variants_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         let request = &self.request;
         self.listed(request.list, request.distinct, request.seed, cancelled)
     }
 
     /// As many ideas as variants were asked for, each as its first variant, until `cancelled`.
-    #[must_use]
     pub fn ideas_unless<'o>(&'o self, cancelled: ShouldCancel<'o>) -> Variants<'o> {
         self.listed(self.request.list, true, self.request.seed, cancelled)
     }
 
-    /// Another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking, and more of the best than a search that does not count was
-    /// asked for, take a search of their own.
-    #[must_use]
+    /// Returns another list of the same variants, until `cancelled`: all of them, or a sample by another seed. The best by a ranking need
+    /// another search, and so do more of the best than a search without counts was asked for.
     pub fn list_unless<'o>(
         &'o self,
         list: List,
@@ -136,7 +132,7 @@ impl Outcome {
         }
     }
 
-    /// A list of what the diagrams hold; nothing where there are none.
+    /// Returns a list from the diagrams, empty if there are none.
     fn by_diagrams(&self, list: List, distinct: bool, seed: u64) -> ListSource<'_> {
         let unranked = |v: Assignment| (v, None);
         let Some(d) = &self.diagrams else {
@@ -171,7 +167,7 @@ impl Outcome {
     }
 }
 
-/// How many variants a list has at most.
+/// Returns the largest length of a list.
 fn most(list: List) -> usize {
     match list {
         List::Top(k) => k,
@@ -180,11 +176,11 @@ fn most(list: List) -> usize {
     }
 }
 
-/// What a list is drawn from.
+/// The source of a list.
 struct ListSource<'o> {
-    /// Variants, with their places in the ranking where there is one.
+    /// Variants, with their places in the ranking if there is one.
     variants: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
-    /// What each stands for, where only the first of each idea is given.
+    /// The idea of each, if only the first variant of each idea is listed.
     ideas: Vec<Idea>,
 }
 
@@ -213,15 +209,15 @@ pub struct Variants<'o> {
     outcome: &'o Outcome,
     list: List,
     cancelled: ShouldCancel<'o>,
-    /// Variants, with their places in the ranking where there is one.
+    /// Variants, with their places in the ranking if there is one.
     source: Box<dyn Iterator<Item = (Assignment, Option<usize>)> + 'o>,
     /// Whether second opinions are wanted of those to come.
     opinions: bool,
-    /// The poses that those to come are looked at in.
+    /// The poses in which the next ones are examined.
     stroke: Option<&'o Stroke>,
-    /// Looked at, and not given yet.
+    /// Examined, and not given yet.
     ready: std::vec::IntoIter<(Certified, Option<usize>)>,
-    /// What each stands for, where only the first of each idea is given.
+    /// The idea of each, if only the first variant of each idea is listed.
     ideas: Vec<Idea>,
     distinct: bool,
     /// How many more may be given.
@@ -241,20 +237,17 @@ impl fmt::Debug for Variants<'_> {
 
 impl Variants<'_> {
     /// What second opinions and other poses say of those given so far.
-    #[must_use]
     pub fn summary(&self) -> Summary {
         self.summary
     }
 
     /// Whether the giving was cancelled.
-    #[must_use]
     pub fn interrupted(&self) -> bool {
         self.interrupted
     }
 
     /// Why the giving ended early, so far as it goes: it or the ranking was interrupted, or it would have taken more than the
     /// memory there is.
-    #[must_use]
     pub fn cut_short(&self) -> Option<Stop> {
         let ranking = self.outcome.ranking.as_ref();
         if self.interrupted || ranking.is_some_and(|r| r.interrupted) {
@@ -264,12 +257,11 @@ impl Variants<'_> {
     }
 
     /// Why this is not all that was asked for: the giving, or else the search.
-    #[must_use]
     pub fn stop(&self) -> Stop {
         self.cut_short().unwrap_or(self.outcome.stop)
     }
 
-    /// Whether fewer came than there are, though none was left out on purpose.
+    /// Returns whether fewer came than there are, although none was omitted on purpose.
     fn is_short(&self) -> bool {
         let (o, given) = (self.outcome, self.summary.given);
         let due = match self.list {
@@ -284,7 +276,7 @@ impl Variants<'_> {
         counted && !self.distinct && due > given.into()
     }
 
-    /// What a variant stands for, where only the first of each idea is given.
+    /// Returns the idea of a variant, if only the first variant of each idea is listed.
     fn idea(&self, of: &Certified) -> Option<Idea> {
         self.ideas.iter().find(|i| i.first == of.variant).cloned()
     }

@@ -1,7 +1,6 @@
 //! Fronts: of variants that no other is better than in every term, and of what no other is both faster and more often right than.
 
 /// Whether `a` is nowhere worse than `b` and somewhere better.
-#[must_use]
 pub fn dominates(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(x, y)| x <= y) && a.iter().zip(b).any(|(x, y)| x < y)
 }
@@ -11,7 +10,6 @@ pub fn dominates(a: &[f64], b: &[f64]) -> bool {
 ///
 /// # Complexity
 /// O(n · front · terms) a front, after sorting.
-#[must_use]
 pub fn fronts(points: &[Vec<f64>], enough: usize) -> Vec<Option<usize>> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     // A point can be dominated only by those before it in this order.
@@ -44,7 +42,6 @@ pub fn fronts(points: &[Vec<f64>], enough: usize) -> Vec<Option<usize>> {
 }
 
 /// The places of those that are right more often than all faster ones, the fastest first, from (seconds, share).
-#[must_use]
 pub(crate) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {

@@ -1,8 +1,8 @@
-//! Whether a variant outside of a scored pool comes before the best of it: branch and bound over the diagram.
+//! Proof that no variant outside of a scored pool comes before its best ones: branch and bound over the diagram.
 //!
-//! Variants are gone through in the order of the diagram's variables. A branch ends where its bound, of cost, counts, and the
-//! reactions as far as they are determined, is behind the last of the list; what is left is scored whole. Branches are
-//! gone through some at a time, each of them against the list before them, so that the result depends on no order of threads.
+//! The search follows the order of the diagram's variables. A branch ends if its bound is behind the last of the list. The bound has
+//! cost, counts, and the reactions as far as they are determined. All other variants are scored. Some branches at a time are
+//! searched, each with the list from before them, so that the result does not depend on the order of threads.
 
 use crate::model::ranking::{Order, Ranking, Term};
 use crate::score::evaluation::beginnings::{Beginnings, Begun, TakenChoice};
@@ -17,19 +17,19 @@ use crate::search::answer::place::Places;
 use crate::search::diagram::{DEAD, Diagram};
 use rayon::prelude::*;
 
-/// Branches gone through at a time.
+/// Branches that are searched at a time.
 const BRANCHES: usize = 64;
-/// Branches that the diagram is divided into, at least.
+/// Least number of branches of the diagram.
 const DIVIDED: usize = 4096;
 /// Bounds are sums in another order than scores.
 const MARGIN: f64 = 1e-6;
 
-/// Nodes gone through at most: some half a minute on two cores.
+/// Largest number of visited nodes, about half a minute on two cores.
 const WORK: usize = 20_000_000;
-/// A variant scored whole takes as long as so many nodes.
+/// The work of scoring a variant, in nodes.
 const SCORING: usize = 8;
 
-/// Why not all was gone through.
+/// Why the search ended early.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Ended {
     Stopped,
@@ -42,7 +42,7 @@ struct BranchStart {
     node: usize,
 }
 
-/// What does not change on the way.
+/// The constants of a search.
 struct BranchAndBound<'w> {
     evaluator: &'w Evaluator<'w>,
     search: &'w Search,
@@ -70,12 +70,12 @@ struct Walker<'w> {
     /// The sum that a variant may have at most to be among the list, and what bounds may be wrong by.
     allowed: f64,
     scored: usize,
-    /// Nodes gone through, and what scoring takes as nodes.
+    /// Visited nodes, and the work of scoring in nodes.
     work: usize,
     ended: Option<Ended>,
 }
 
-/// A node on the way: its layer and place there, and what the choices so far cost and bear at least.
+/// A visited node: its layer and place there, and bounds on cost and loads of the choices so far.
 #[derive(Clone, Copy)]
 struct Here {
     layer: usize,
@@ -134,13 +134,13 @@ pub(in crate::score) fn prove(
     }
 }
 
-/// Whether branches will take too long in all, so many of them having taken so much work.
+/// Returns whether all branches will take too long, from the work of the finished ones.
 fn too_long(work: usize, done: usize, all: usize) -> bool {
     work > WORK / 8 && work * all > WORK * done
 }
 
 impl<'w> BranchAndBound<'w> {
-    /// Goes through all branches: how many variants were scored, and why that ended early.
+    /// Searches all branches. Returns the number of scored variants, and why the search ended early.
     fn all(
         &self,
         list: &mut Vec<Ranked>,
@@ -177,7 +177,7 @@ impl<'w> BranchAndBound<'w> {
         (scored, ended)
     }
 
-    /// Beginnings of all variants, each of so many choices that there are enough of them.
+    /// Returns enough beginnings that together cover all variants.
     fn branches(&self) -> Vec<BranchStart> {
         let mut out = vec![BranchStart {
             choices: Vec::new(),
@@ -208,7 +208,7 @@ impl<'w> BranchAndBound<'w> {
             .collect()
     }
 
-    /// Goes through a branch against a list.
+    /// Searches a branch, starting with a list.
     fn through(&self, branch: &BranchStart, list: &[Ranked]) -> Walker<'_> {
         let mut walker = Walker {
             walk: self,
@@ -248,7 +248,6 @@ impl<'w> BranchAndBound<'w> {
     }
 
     /// The least sum of terms.
-    #[allow(clippy::cast_precision_loss, reason = "costs and counts are small")]
     fn sum(&self, key: Key, cost: u64, floor: Floor) -> f64 {
         let terms = self.ranking.terms.iter().map(|&(term, weight)| {
             let least = match term {
@@ -265,7 +264,7 @@ impl<'w> BranchAndBound<'w> {
 }
 
 impl Walker<'_> {
-    /// Goes through the variants behind a node.
+    /// Searches the variants behind a node.
     fn walk(&mut self, here: Here) {
         let Some(layer) = self.walk.diagram.layers.get(here.layer) else {
             return self.score(here.node, here.key);
@@ -334,14 +333,14 @@ impl Walker<'_> {
         (Some(taken), wins.then_some(next))
     }
 
-    /// What a variant has to keep to, the list being what it is.
+    /// Updates the largest sum of a variant that still enters the list.
     fn listed(&mut self) {
         let last = self.list.get(self.walk.top - 1);
         let sum = last.map_or(f64::INFINITY, |r| r.scores.weighted(self.walk.ranking));
         self.allowed = sum + MARGIN * (1.0 + sum.abs());
     }
 
-    /// Scores a variant whole.
+    /// Scores a variant.
     fn score(&mut self, terminal: usize, key: Key) {
         let walk = self.walk;
         let end = walk

@@ -14,7 +14,7 @@ use crate::search::question::conditions::Symmetry;
 /// Scores the cheapest variants and puts the best in order, where that was asked for.
 ///
 /// # Errors
-/// Where the loads of the ranking cannot be borne by the mechanism as it is.
+/// Returns an error if the original mechanism cannot bear the loads of the ranking.
 pub(in crate::score) fn ranked(
     search: &Search,
     diagrams: &Diagrams,

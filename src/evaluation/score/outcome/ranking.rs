@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-/// Variants scored between two looks at the proof.
+/// Variants scored between two tests of the proof.
 const BLOCK: usize = 4096;
 
 /// A variant with its place in both orders.
@@ -38,13 +38,13 @@ pub struct Ranked {
 pub struct RankedPool {
     /// The best, in order.
     pub list: Vec<Ranked>,
-    /// What is ranked by.
+    /// The terms and their weights.
     pub ranking: Ranking,
     /// Most variants allowed in the pool.
     pub pool: usize,
     /// Variants of the pool scored.
     pub scored: usize,
-    /// Variants outside of the pool scored, where the others were gone through by bounds, as far as that was done.
+    /// Number of scored variants outside of the pool, if these were searched with bounds.
     pub elsewhere: Option<usize>,
     /// Those whose loads have no equilibrium.
     pub unheld: usize,
@@ -58,11 +58,11 @@ pub struct RankedPool {
     pub proof: &'static str,
     /// Whether scoring was cancelled.
     pub interrupted: bool,
-    /// What is missing to a proof, where the order is by a weighted sum in which cost counts.
+    /// The gap to a proof, if the order is a weighted sum with cost.
     pub missing: Option<Missing>,
     /// The cheapest that could be scored, as a measure for the others.
     pub cheapest: Option<Ranked>,
-    /// Poses looked at.
+    /// Number of examined poses.
     pub poses: usize,
     /// The parts whose contact forces are among the loads.
     pub gripped: Vec<Gripped>,
@@ -70,7 +70,7 @@ pub struct RankedPool {
     pub stroke_stopped: Option<f64>,
 }
 
-/// What is missing to the proof that a pool holds the best.
+/// The gap to a proof that a pool holds the best.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Missing {
     /// No variant that was not scored has a lower sum.
@@ -85,15 +85,12 @@ pub struct Missing {
 
 impl Missing {
     /// The cost from which on no variant can be among the list.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
     pub fn settled_at_cost(&self) -> f64 {
         self.settled_at as f64 / 1000.0
     }
 }
 
 /// Which of two comes first, the cheaper one where the order does not say.
-#[must_use]
 pub fn compare(ranking: &Ranking, a: &Ranked, b: &Ranked) -> Ordering {
     let by_order = match ranking.order {
         Order::Weighted => a
@@ -123,7 +120,6 @@ fn settled(
     floor: f64,
 ) -> Option<&'static str> {
     let last = list.last()?;
-    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
     let least = least_milli as f64 / 1000.0;
     match ranking.order {
         Order::Weighted => {
@@ -166,7 +162,6 @@ pub struct Ranker<'e, 's> {
 
 impl<'e, 's> Ranker<'e, 's> {
     /// For a pool of at most `limit` variants, of which the best `top` are wanted.
-    #[must_use]
     pub fn new(evaluator: &'e Evaluator<'s>, ranking: &Ranking, limit: usize, top: usize) -> Self {
         let floor = match ranking.order {
             Order::Weighted => evaluator.floor().weighted(ranking),
@@ -259,7 +254,7 @@ impl<'e, 's> Ranker<'e, 's> {
         self.kept.truncate(top);
     }
 
-    /// What is missing to a proof.
+    /// Returns the gap to a proof.
     fn missing(&self) -> Option<Missing> {
         let ranking = &self.out.ranking;
         let weight = ranking.terms.iter().find(|(t, _)| *t == Term::Cost)?.1;
@@ -268,11 +263,6 @@ impl<'e, 's> Ranker<'e, 's> {
             return None;
         }
         let last = last.scores.weighted(ranking);
-        #[allow(
-            clippy::cast_precision_loss,
-            clippy::cast_possible_truncation,
-            reason = "costs are small"
-        )]
         let (reached, settled_at) = (
             self.reached as f64 / 1000.0,
             (1000.0 * (last - self.floor) / weight).ceil() as i64,
@@ -289,7 +279,6 @@ impl<'e, 's> Ranker<'e, 's> {
     ///
     /// # Complexity
     /// One scoring a variant, in parallel, and a sort a block; for Pareto's order O(pool · front).
-    #[must_use]
     pub fn finish(mut self, all: bool) -> RankedPool {
         if !self.block.is_empty() {
             self.score();
@@ -330,7 +319,7 @@ fn ordinal(n: usize) -> String {
     format!("{n}{end}")
 }
 
-/// What a term came from and went to, in words.
+/// Returns the change of a term in words.
 fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
     let joint = |j: JointId| m.joints.get(j.index()).map_or("", |j| j.id.as_str());
     match term {
@@ -369,7 +358,6 @@ fn change(m: &Mechanism, term: Term, from: &Scores, to: &Scores) -> String {
 impl RankedPool {
     /// Why a variant is not where its cost would put it: the term that speaks most for it against the cheapest; `None`
     /// where its place is that by cost.
-    #[must_use]
     pub fn reason(&self, m: &Mechanism, rank: usize) -> Option<String> {
         let (here, cheapest) = (
             self.list.get(rank.checked_sub(1)?)?,

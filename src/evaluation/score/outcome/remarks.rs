@@ -16,7 +16,7 @@ pub struct Remarks {
     pub eased: Vec<(Relaxation, BigUint)>,
     /// The request with more joint types at some joints that finds something.
     pub offered: Option<Request>,
-    /// What stands in the way of every variant.
+    /// The reasons that exclude every variant.
     pub hopeless: Hopeless,
     /// The cheapest symmetric redesigns of a symmetric mechanism.
     pub symmetric: Option<SymmetricBest>,
@@ -24,7 +24,6 @@ pub struct Remarks {
 
 impl Remarks {
     /// Returns the joint types that another request offers besides those of the one that found nothing.
-    #[must_use]
     pub fn offers<'r>(&'r self, asked: &Request) -> &'r [JointOptions] {
         let allow = self.offered.as_ref().map(|r| &r.allow[..]);
         allow.map_or(&[], |all| &all[asked.allow.len()..])
@@ -32,7 +31,6 @@ impl Remarks {
 }
 
 /// Returns a request with one condition eased.
-#[must_use]
 pub fn eased(request: &Request, how: Relaxation) -> Request {
     let mut out = request.clone();
     match how {
@@ -53,7 +51,7 @@ impl Outcome {
     /// Returns the remarks on the variants, as far as there was time until `cancelled` said to end.
     ///
     /// # Errors
-    /// Where the geometry has no exact image.
+    /// Returns an error if the geometry has no exact image.
     pub fn remarks(&self, cancelled: &(dyn Fn() -> bool + Sync)) -> Result<Remarks, SearchError> {
         let none = self.admissible.total.is_zero() && !self.admissible_may_be_more();
         Ok(Remarks {

@@ -10,9 +10,9 @@ use crate::search::diagram::Stop;
 use crate::search::question::conditions::{Conditions, SearchError, Symmetry};
 use std::collections::BTreeSet;
 
-/// Redundant constraints left at most.
+/// Largest number of remaining redundant constraints.
 const LEFT: u32 = 2;
-/// Nodes of a diagram at most: images chosen alike make small diagrams.
+/// Largest number of nodes of a diagram. Equal choices for images make small diagrams.
 const NODES: usize = 20_000;
 /// Variants searched for one that leaves exactly the wanted number of redundant constraints.
 const LOOKED_AT: usize = 10_000;
@@ -31,7 +31,7 @@ pub struct SymmetricRedesign {
 /// The cheapest symmetric redesigns.
 #[derive(Debug)]
 pub struct SymmetricBest {
-    /// For 0, 1 and 2 redundant constraints left the cheapest, where there is one and it could be found.
+    /// The cheapest with 0, 1 and 2 remaining redundant constraints, if one was found.
     pub best: Vec<SymmetricRedesign>,
     /// Why no symmetric redesign leaves no redundant constraint and adds no idle motion; `None` where one does, or the reason is another.
     pub odd: Option<OddFreedoms>,
@@ -51,7 +51,7 @@ impl Outcome {
     /// symmetric by a third of a turn, or if there is none by a mirror or half turn.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field.
+    /// Returns an error if a coordinate has no value in the field.
     ///
     /// # Complexity
     /// Three searches of each symmetry with joints that are images of each other as one.

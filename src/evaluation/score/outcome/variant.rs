@@ -27,7 +27,7 @@ pub struct Change {
     pub joint: JointId,
     /// The present option, by name.
     pub from: String,
-    /// What is put there.
+    /// The new type.
     pub to: String,
 }
 
@@ -44,31 +44,26 @@ pub struct Variant<'o> {
 
 impl<'o> Variant<'o> {
     /// The outcome it is of.
-    #[must_use]
     pub fn outcome(&self) -> &'o Outcome {
         self.outcome
     }
 
     /// Its place in the list, from 1.
-    #[must_use]
     pub fn position(&self) -> usize {
         self.position
     }
 
-    /// What it chooses: an option for each variable of the space, and its properties as the diagram counts them.
-    #[must_use]
+    /// Returns its choice for each variable of the space, and its properties in the diagram.
     pub fn assignment(&self) -> &Assignment {
         &self.certified.variant
     }
 
-    /// What it stands for, where only the first variant of each idea is given.
-    #[must_use]
+    /// Returns its idea, if the list has only the first variant of each idea.
     pub fn idea(&self) -> Option<&Idea> {
         self.idea.as_ref()
     }
 
     /// Its cost above the present mechanism's, in thousandths.
-    #[must_use]
     pub fn cost_milli(&self) -> i64 {
         self.outcome
             .search
@@ -77,105 +72,89 @@ impl<'o> Variant<'o> {
     }
 
     /// Its cost above the present mechanism's.
-    #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "costs are small")]
     pub fn cost(&self) -> f64 {
         self.cost_milli() as f64 / 1000.0
     }
 
     /// Mobility W in the free state.
-    #[must_use]
     pub fn mobility(&self) -> i64 {
         self.outcome.search.mobility(self.assignment().key)
     }
 
     /// Redundant constraints σ in the free state.
-    #[must_use]
     pub fn redundant(&self) -> u32 {
         self.assignment().key.internal()
     }
 
-    /// Redundant constraints that the searched state adds; `None` where none was searched.
-    #[must_use]
+    /// Returns the number of redundant constraints that the searched state adds; `None` without such a state.
     pub fn external_redundant(&self) -> Option<i32> {
         let searched = self.outcome.search.conditions.state;
         searched.map(|_| self.assignment().key.external())
     }
 
     /// Harmful ones among them: self-stresses that load the joints the state adds with more than friction.
-    #[must_use]
     pub fn external_harmful(&self) -> Option<u32> {
         let searched = self.outcome.search.conditions.state;
         searched.map(|_| self.assignment().key.harmful())
     }
 
     /// Number of changed joints and inserted unloading joints.
-    #[must_use]
     pub fn change_count(&self) -> u32 {
         self.assignment().key.changes()
     }
 
-    /// The joints it changes, in file order.
-    #[must_use]
+    /// Returns the joints that it changes, in file order.
     pub fn changes(&self) -> Vec<Change> {
         changes(&self.outcome.search, self.assignment())
     }
 
-    /// What singular values say of it.
-    #[must_use]
+    /// Returns the second opinion by singular values.
     pub fn second(&self) -> &Second {
         &self.certified.second
     }
 
-    /// What other poses say of it, where that was asked.
-    #[must_use]
+    /// Returns the results in other poses, if they were asked for.
     pub fn over_stroke(&self) -> Option<&OverStroke> {
         self.certified.stroke.as_ref()
     }
 
-    /// Whether other poses were looked at and give other figures.
-    #[must_use]
+    /// Returns whether other poses were examined and give other figures.
     pub fn lucky(&self) -> bool {
         self.certified.lucky()
     }
 
-    /// What the ranking knows of it, where there is one.
-    #[must_use]
+    /// Returns its entry in the ranking, if there is one.
     pub fn ranked(&self) -> Option<&'o Ranked> {
         self.outcome.ranking.as_ref()?.list.get(self.place?)
     }
 
     /// Its scores under the workload, where it was ranked.
-    #[must_use]
     pub fn scores(&self) -> Option<&'o Scores> {
         self.ranked().map(|r| &r.scores)
     }
 
     /// Why its place in the ranking is not that by cost.
-    #[must_use]
     pub fn reason(&self) -> Option<String> {
         let pool = self.outcome.ranking.as_ref()?;
         pool.reason(&self.outcome.search.mechanism, self.place? + 1)
     }
 
     /// Its name: "idea 3" in a list of ideas, "variant 3" in one of all variants.
-    #[must_use]
     pub fn name(&self) -> String {
         let one = if self.idea.is_some() { IDEA } else { VARIANT };
         format!("{one} {}", self.position)
     }
 
-    /// The variant as a mechanism of its own, named for its place in the list.
-    #[must_use]
+    /// Returns the variant as a mechanism, named after its place in the list.
     pub fn mechanism(&self) -> Mechanism {
         mechanism(&self.outcome.search, self.assignment(), &self.name())
     }
 
     /// σ of each of its contours when they are added in this order, with the range over all orders of these: of the searched state,
-    /// whose own contours come last, or of the free one. Nothing where no contour has any.
+    /// whose own contours come last, or of the free one. Empty if no contour has any.
     ///
     /// # Errors
-    /// Where a coordinate has no value in the field of the search.
+    /// Returns an error if a coordinate has no value in the field of the search.
     ///
     /// # Complexity
     /// Some eliminations of J for each call.
@@ -214,8 +193,7 @@ impl fmt::Display for Variant<'_> {
     }
 }
 
-/// A choice of options as a mechanism of its own, named for its place in a list: "variant 3".
-#[must_use]
+/// Returns a choice of options as a mechanism, named after its place in a list: "variant 3".
 pub fn mechanism(search: &Search, assignment: &Assignment, name: &str) -> Mechanism {
     let mut out = variant_mechanism::realize(search, &assignment.choices);
     out.description = format!(
@@ -280,7 +258,6 @@ fn offer_again(search: &Search, assignment: &Assignment, out: &mut Mechanism) {
 }
 
 /// The joints that a choice of options changes, in file order.
-#[must_use]
 pub fn changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
     let mut out = Vec::new();
     let variables = search.space.variables.iter().zip(&assignment.choices);
@@ -296,7 +273,6 @@ pub fn changes(search: &Search, assignment: &Assignment) -> Vec<Change> {
 }
 
 /// Changes in words: "3-0, 7-0 -> spherical; 5-1 -> cylindrical".
-#[must_use]
 pub fn in_words(search: &Search, changes: &[Change]) -> String {
     let mut alike: Vec<(&str, Vec<&str>)> = Vec::new();
     for c in changes {

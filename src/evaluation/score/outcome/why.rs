@@ -1,5 +1,5 @@
-//! Why a redesign helps, and what it costs in stiffness: what each change lets go, which redundant constraints it removes, what is
-//! still held, which joints stay as they are, and what joints bear.
+//! Reasons for a redesign and its cost in stiffness: freedoms that each change adds, redundant constraints that it removes, directions
+//! that remain held, unchanged joints, and loads of joints.
 
 use crate::closure::Closure;
 use crate::closure::contour::Contour;
@@ -25,10 +25,10 @@ use itertools::Itertools;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// The side load where a file has none. `[N]`
+/// The side load of a file without loads. `[N]`
 pub const SIDE_LOAD: f64 = 10.0;
 
-/// What one change lets go.
+/// The freedoms that one change adds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LetGo {
     /// The joint.
@@ -45,7 +45,7 @@ pub struct LetGo {
     pub floats: bool,
     /// Slides across that axis.
     pub shifts: usize,
-    /// The type put there; none where one is put in series besides, or it has freedoms of its own choice.
+    /// The new type; `None` for a joint in series or a custom set of freedoms.
     pub to: Option<JointType>,
     /// In how many directions forces and moments are still held.
     pub holds: (usize, usize),
@@ -65,18 +65,18 @@ pub struct Removed {
 /// Why a redesign helps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Why {
-    /// What each change lets go, in file order.
+    /// The freedoms that each change adds, in file order.
     pub lets: Vec<LetGo>,
-    /// What it removes, contour by contour; `None` where a coordinate has no exact value.
+    /// The removed constraints of each contour; `None` if a coordinate has no exact value.
     pub removes: Option<Vec<Removed>>,
-    /// The joints that stay as they are.
+    /// The unchanged joints.
     pub unchanged: Vec<JointId>,
     /// The joints that bear most of what they may, by force and by moment; `None` where the loads have no equilibrium, or nothing is
     /// known of them.
     pub peaks: Option<[Peak; 2]>,
 }
 
-/// What is needed to say why, for the redesigns of one search.
+/// The data that explain the redesigns of one search.
 #[derive(Debug)]
 pub struct Whys<'o> {
     outcome: &'o Outcome,
@@ -87,8 +87,7 @@ pub struct Whys<'o> {
 }
 
 impl<'o> Whys<'o> {
-    /// Of an outcome.
-    #[must_use]
+    /// Prepares the data of an outcome.
     pub fn new(outcome: &'o Outcome) -> Whys<'o> {
         let (search, m) = (&outcome.search, &outcome.search.mechanism);
         let closure = Closure::new(search.field(), m, StateId::FREE);
@@ -111,12 +110,11 @@ impl<'o> Whys<'o> {
     }
 
     /// Whether peaks are those of the side load of [`SIDE_LOAD`] on each output, along its hinges.
-    #[must_use]
     pub fn is_side_load(&self) -> bool {
         self.side.is_some()
     }
 
-    /// What says why redesigns help, one after another.
+    /// Returns a function that explains redesigns one after another.
     ///
     /// # Complexity
     /// That of analysing a stroke under the loads, once; then O((6k)²·f) for each redesign and pose.
@@ -135,7 +133,7 @@ impl<'o> Whys<'o> {
         }
     }
 
-    /// All but what joints bear.
+    /// Returns the explanation without loads.
     fn unloaded(&self, v: &Assignment) -> Why {
         let search = &self.outcome.search;
         let m = &*search.mechanism;
@@ -236,7 +234,6 @@ fn pressed_aside(m: &Mechanism) -> Mechanism {
         let mut hinges = own.iter().copied().chain(&joints);
         let hinge = hinges.find(|j| j.joint_type == JointType::Revolute);
         let across = hinge.map_or([0.0, 0.0, 1.0], |j| unit(real(&j.frame.axis)));
-        #[allow(clippy::cast_precision_loss, reason = "a few joints")]
         let many = own.len() as f64;
         let points = own.iter().map(|j| real(&j.frame.point));
         let sum = points.fold([0.0; 3], |s, p| [0, 1, 2].map(|i| s[i] + p[i] / many));

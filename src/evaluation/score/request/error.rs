@@ -10,7 +10,7 @@ use crate::search::question::conditions::SearchError;
 use num_bigint::BigUint;
 use thiserror::Error;
 
-/// What is wrong with a request about a mechanism.
+/// An error in a request about a mechanism.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RequestError {
@@ -164,7 +164,7 @@ pub enum RunError {
         /// Why not.
         why: ScoreError,
     },
-    /// Too many variants to look at each.
+    /// Too many variants to examine each.
     #[error("{0} variants are too many for brute force; use --method diagram, or fewer --options")]
     TooMany(BigUint),
 }

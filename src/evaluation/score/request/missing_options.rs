@@ -1,4 +1,4 @@
-//! Where nothing is found: joint types with which something would be.
+//! Joint types that would help if a search finds nothing.
 
 use crate::geom::vector::{Vector, across, cross, dot, length, real, scale, sub, unit};
 use crate::model::joint_type::{Freedom, JointType};
@@ -11,15 +11,14 @@ use crate::score::request::{Check, JointOptions, List, Request};
 use crate::score::run::run;
 use itertools::Itertools;
 
-/// Nodes that the look at whether they help may take.
+/// Node budget of the search that tests whether they help.
 const NODES: usize = 100_000;
 /// A direction further than this from a span is outside.
 const OUTSIDE: f64 = 1e-6;
 
 impl Outcome {
-    /// Returns the request with more joint types at some joints, where nothing was found and a search with these finds something:
-    /// the cheapest freedoms that remove what is redundant and let nothing move, each in the cheapest type that has it.
-    #[must_use]
+    /// Returns the request with more joint types at some joints, if nothing was found and a search with these types finds a variant. The
+    /// types are the cheapest ones with the cheapest freedoms that remove redundant constraints and add no motion.
     pub fn would_help(&self) -> Option<Request> {
         let wider = self.widened(self.cheapest_freedoms()?);
         self.finds(&wider).then_some(wider)
@@ -101,7 +100,7 @@ struct FreedMotion {
     direction: Vector,
 }
 
-/// The cheapest type that has what a joint is to be given.
+/// Returns the cheapest type that has the motions that a joint needs.
 fn one(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOptions> {
     let here = &m.joints[joint];
     // A contact at a point or a line has to be pressed together.
@@ -115,7 +114,7 @@ fn one(m: &Mechanism, joint: JointId, freed: &[FreedMotion]) -> Option<JointOpti
     })
 }
 
-/// Whether a type in a joint's frame turns about, or slides along, a direction.
+/// Returns whether a type in a joint's frame turns about, or slides along, a direction.
 fn has(joint: &Joint, of: &JointType, freed: FreedMotion) -> bool {
     let z = unit(real(&joint.frame.axis));
     let x = unit(across(real(&joint.frame.reference), z));

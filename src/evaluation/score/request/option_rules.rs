@@ -1,4 +1,4 @@
-//! What a request holds, offers, allows and forbids at single links and joints.
+//! Rules of a request for single links and joints: held links, and offered, allowed and forbidden options.
 
 use crate::model::mechanism::{JointId, JointOption, Mechanism, StateId};
 use crate::score::request::unlisted::types;
@@ -42,7 +42,7 @@ impl<'m> KnownOptions<'m> {
 /// Options that are allowed at a joint, or forbidden.
 struct OptionRule<'r> {
     joint: JointId,
-    /// None where all changes are meant.
+    /// Empty means all changes.
     names: &'r [String],
     allow: bool,
 }

@@ -1,4 +1,4 @@
-//! A mechanism made ready for a search: the one that is meant, and what is said where its coordinates are rounded.
+//! Preparation of a mechanism for a search: the geometry that is meant, and notes about rounded coordinates.
 
 use crate::file::costs::costs_from_str;
 use crate::file::problem::ImportError;
@@ -12,7 +12,7 @@ use crate::search::question::as_written::Written;
 use crate::search::question::rounded_rank::Digits;
 use std::sync::Arc;
 
-/// What to do about rounded coordinates.
+/// The remedies for rounded coordinates.
 pub(in crate::score) const CURE: &str = "write roots or expressions such as sqrt(3)/2, give more digits, or say how far they may be off in a [tolerance] table";
 
 /// Why a geometry looks rounded, with the verdicts on its states.
@@ -79,7 +79,7 @@ pub(in crate::score) fn tell_moved(settled: &Settled, tell: &mut dyn FnMut(Strin
     }
 }
 
-/// What the digits of a mechanism tell of ranks, by the verdicts on it.
+/// Returns how far the digits of a mechanism determine ranks, by the verdicts on it.
 pub(in crate::score) fn digits(verdicts: &[RankVerdict]) -> Digits {
     let tolerance = |a: f64, v: &RankVerdict| a.max(v.tolerance);
     Digits {
@@ -140,7 +140,7 @@ impl Prepared {
     }
 }
 
-/// What is said of measured coordinates that change no figure.
+/// Returns the note about measured coordinates that change no figure.
 fn looks_measured(name: &str, w: &Rounded) -> String {
     if w.pi {
         format!(

@@ -237,7 +237,7 @@ pub(in crate::score) fn fits(mechanism: &Mechanism, id: JointId, joint_type: &Jo
         && keeps_coupled(&new, &present, &coupled_freedoms(mechanism, id))
 }
 
-/// The direction of a type that a joint's frame has no word for.
+/// Returns the direction of a type that a joint's frame does not determine.
 fn guessed(of: &JointType) -> Option<&'static str> {
     match of {
         JointType::Universal | JointType::CylindricalUniversal => {

@@ -1,10 +1,10 @@
-//! Words of a request that are more than a name or a number, as they are typed and as they stand in JSON.
+//! Words of a request that are more than a name or a number, as typed and in JSON.
 
 use crate::model::ranking::Term;
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
-/// What is wrong with a word.
+/// An error in a word.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum WordError {
     /// No such term.
@@ -29,7 +29,7 @@ pub enum WordError {
 /// ```
 ///
 /// # Errors
-/// Where there is no such term, or the weight is none from 0 to 1e12.
+/// Returns an error if there is no such term, or if the weight is not from 0 to 1e12.
 pub fn weighted_term(word: &str) -> Result<(Term, f64), WordError> {
     let (name, weight) = match word.split_once('=') {
         Some((name, weight)) => (name, weight.parse().ok()),

@@ -53,8 +53,8 @@ pub(super) fn opinion_on_diagrams(
     Ok(Some(said))
 }
 
-/// The least and the most (determinate, admissible) over the scenes that the digits do not rule out; none where all are the
-/// same, by mobility too.
+/// Returns the least and the most (determinate, admissible) over the scenes that the digits do not rule out; `None` if all are the same,
+/// also by mobility.
 pub(super) fn other_scenes(
     search: &Search,
     determinate: &Counts,

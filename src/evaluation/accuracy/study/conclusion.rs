@@ -1,19 +1,20 @@
 //! The conclusion of a study: what its tallies show, in words.
 
-use super::{Study, View, bound};
+use super::{Figure, Study, View, asked_of, bound};
 use crate::accuracy::said::{Said, Tally};
 use crate::accuracy::timing::quantile;
-use crate::format::{duration, grouped, list, scientific};
+use crate::format::{brief, duration, grouped, list, scientific};
 
 impl Study {
     /// Returns the conclusion from the data.
-    #[must_use]
     pub fn conclusion(&self) -> String {
         match self.view {
             View::Regions | View::Best => self.stretches(),
             View::Shares => self.shares(),
             View::Times | View::Ratios => format!("{} {}", self.stretches(), self.times()),
             View::Errors(degree) => self.errors(degree),
+            View::Against(Figure::Right) => self.of_front(),
+            View::Against(figure) => self.ranges(figure),
         }
     }
 
@@ -21,7 +22,7 @@ impl Study {
     fn stretches(&self) -> String {
         let (mut always, mut rest) = (Vec::new(), Vec::new());
         for (name, tallies) in &self.rows {
-            let of: Vec<_> = self.asked_of(tallies).collect();
+            let of: Vec<_> = asked_of(tallies).collect();
             let share = |n: usize| of[n].1.percent(Said::Right);
             let most = (0..of.len()).map(share).fold(0.0, f64::max);
             let runs = longest_run(of.len(), |n| share(n) >= most);
@@ -56,10 +57,10 @@ impl Study {
     fn shares(&self) -> String {
         let told = self.rows.iter().map(|(name, tallies)| {
             let mut sum = Tally::default();
-            for (n, of) in tallies.iter().flat_map(|t| t.of.iter().enumerate()) {
+            for (n, of) in tallies.iter().flat_map(|(_, t)| t.of.iter().enumerate()) {
                 sum.of[n] += of;
             }
-            let worst = self.asked_of(tallies).max_by(|a, b| {
+            let worst = asked_of(tallies).max_by(|a, b| {
                 let sure = |t: &Tally| t.percent(Said::Wrong);
                 sure(a.1).total_cmp(&sure(b.1))
             });
@@ -80,17 +81,12 @@ impl Study {
     /// Returns the time of each row at the largest value that has replies, and how it grows.
     fn times(&self) -> String {
         let told = self.rows.iter().filter_map(|(name, tallies)| {
-            let times = self
-                .asked_of(tallies)
-                .map(|(x, t)| (x, quantile(&t.seconds, 0.5)));
-            let times: Vec<(f64, f64)> = times.collect();
+            let times: Vec<_> = asked_of(tallies).map(|(x, t)| (x, t.time())).collect();
             let (x1, y1) = *times.last()?;
             let before = times.iter().rev().find(|(x, y)| x * 3.0 <= x1 && *y > 0.0);
             let grows = before.map_or_else(String::new, |(x0, y0)| {
-                format!(
-                    ", growing with the power {:.1}",
-                    (y1 / y0).ln() / (x1 / x0).ln()
-                )
+                let power = (y1 / y0).ln() / (x1 / x0).ln();
+                format!(", growing with the power {power:.1}")
             });
             Some(match self.view {
                 View::Times => format!("{name} {} at {x1}{grows}", duration(y1)),
@@ -103,7 +99,7 @@ impl Study {
     /// Returns the values at which each row has errors, whether the bound allows so many, and the time of the row.
     fn errors(&self, degree: u32) -> String {
         let told = self.rows.iter().enumerate().map(|(n, (name, tallies))| {
-            let of: Vec<_> = self.asked_of(tallies).collect();
+            let of: Vec<_> = asked_of(tallies).collect();
             let wrong: Vec<_> = of.iter().filter(|(_, t)| !t.wrong.is_empty()).collect();
             let some = |(bits, t): &&(f64, &Tally)| {
                 let all = grouped(t.total());
@@ -111,7 +107,6 @@ impl Study {
             };
             // The bound is of a probability: some more may be drawn, three deviations and one.
             let above = |(b, t): &&(f64, &Tally)| {
-                #[allow(clippy::cast_precision_loss, reason = "cases are few")]
                 let [all, wrong] = [t.total(), t.wrong.len()].map(|n| n as f64);
                 let expected = bound(degree, *b) / 100.0 * all;
                 wrong > expected + 3.0 * expected.sqrt() + 1.0
@@ -128,9 +123,69 @@ impl Study {
             } else {
                 list(&each)
             };
-            let times: Vec<f64> = of.iter().map(|(_, t)| quantile(&t.seconds, 0.5)).collect();
+            let times: Vec<f64> = of.iter().map(|(_, t)| t.time()).collect();
             let [least, most] = [0.0, 1.0].map(|at| duration(quantile(&times, at)));
             format!("{name}: wrong {none},{above} in {least} to {most} whatever the prime")
+        });
+        format!("{}.", told.collect::<Vec<_>>().join("; "))
+    }
+
+    /// Returns sentences with the rows that are right in all cases, and those on the front of share and time.
+    fn of_front(&self) -> String {
+        let rows = self
+            .rows
+            .iter()
+            .filter_map(|(name, t)| Some((name, &t.first()?.1)));
+        let all = rows
+            .filter(|(_, t)| t.of[0] == t.total())
+            .map(|(name, t)| format!("{name} ({})", duration(t.time())));
+        let all = list(&all.collect::<Vec<_>>());
+        let front = self.front().into_iter().map(|(name, t)| {
+            format!(
+                "{name} ({:.0} %, {})",
+                t.percent(Said::Right),
+                duration(t.time())
+            )
+        });
+        let front = list(&front.collect::<Vec<_>>());
+        let all = if all.is_empty() { "no method" } else { &all };
+        format!(
+            "Right in all cases: {all}. No method is both faster and more often right than {front}. Cases that a method does not apply \
+             to count as not right."
+        )
+    }
+
+    /// Returns the figures of each row at its first and its last value, or its largest share of wrong answers, and its times.
+    fn ranges(&self, figure: Figure) -> String {
+        let told = self.rows.iter().filter_map(|(name, tallies)| {
+            let of: Vec<_> = asked_of(tallies).collect();
+            let times: Vec<f64> = of.iter().map(|(_, t)| t.time()).collect();
+            let [from, to] = [0.0, 1.0].map(|at| quantile(&times, at));
+            if figure == Figure::Wrong {
+                let most = of.iter().map(|(_, t)| t.up(figure)).fold(0.0, f64::max);
+                let wrong = if most > 0.0 {
+                    format!("wrong in up to {most:.1} %")
+                } else {
+                    "never wrong".to_owned()
+                };
+                let [from, to] = [from, to].map(brief);
+                return Some(format!("{name} {wrong}, in {from} to {to} times the time"));
+            }
+            let end = |(x, t): &(f64, &Tally)| format!("{} at {}", brief(t.up(figure)), brief(*x));
+            let ends = match &of[..] {
+                [] => return None,
+                [one] => format!("{} in {}", end(one), duration(to)),
+                [first, .., last] => {
+                    let [from, to] = [from, to].map(duration);
+                    format!("{} to {} in {from} to {to}", end(first), end(last))
+                }
+            };
+            let [right, wrong] = [0, 3].map(|n| of.iter().map(|(_, t)| t.of[n]).sum::<usize>());
+            let holds = match right + wrong {
+                0 => String::new(),
+                all => format!(" (right in {right} of {all})"),
+            };
+            Some(format!("{name}: {ends}{holds}"))
         });
         format!("{}.", told.collect::<Vec<_>>().join("; "))
     }
@@ -166,16 +221,8 @@ mod tests {
 
     /// Ten cases at each of four values, of which so many are wrong and sure.
     fn study(view: View, wrong: [usize; 4]) -> Study {
-        let study = Study {
-            name: "s",
-            title: "S",
-            axis: "x",
-            column: "x",
-            values: vec![1e-3, 1e-2, 1e-1, 1.0],
-            view,
-            advice: "",
-            rows: Vec::new(),
-        };
+        let values = vec![1e-3, 1e-2, 1e-1, 1.0];
+        let study = Study::new("stability-distance", values, view);
         study.asked(["m"], 10, &mut |_, _, _| {}, |v, case| {
             let said = if case < wrong[v] {
                 Said::Wrong
