@@ -32,7 +32,7 @@ fn refused<L: Line + ?Sized>(args: &L, parts: &[&str]) -> String {
     said
 }
 
-/// Runs a command of a shell in a folder; `ozols` is the program.
+/// Runs a shell command in a folder; `ozols` stands for the program.
 fn shell(folder: &Path, words: &str) -> Output {
     let words = words.replace("ozols", &format!("'{}'", env!("CARGO_BIN_EXE_ozols")));
     let mut sh = std::process::Command::new("sh");
@@ -40,7 +40,7 @@ fn shell(folder: &Path, words: &str) -> Output {
     sh.output().unwrap()
 }
 
-/// Asserts that a command of a shell is refused with exit code 2 and these words.
+/// Asserts that a shell command ends with exit code 2 and an error that contains these words.
 fn shell_fails(folder: &Path, words: &str, says: &str) {
     let o = shell(folder, words);
     let said = text(&o.stderr);

@@ -59,13 +59,13 @@ pub(crate) fn run<L: Line + ?Sized>(args: &L) -> Output {
     ozols(args).output().unwrap()
 }
 
-/// Asserts that a text has a part, and shows the whole where it has not.
+/// Asserts that a text contains a part, and shows the whole text if it does not.
 #[track_caller]
 pub(crate) fn has(text: &str, part: &str) {
     assert!(text.contains(part), "no {part:?} in {text}");
 }
 
-/// The same of several parts.
+/// Asserts that a text contains all of several parts.
 #[track_caller]
 pub(crate) fn has_all(text: &str, parts: &[&str]) {
     for part in parts {
@@ -102,7 +102,7 @@ pub(crate) fn json<L: Line + ?Sized>(args: &L) -> Value {
     serde_json::from_str(&out(args)).unwrap()
 }
 
-/// Where a test keeps what it makes, by a name of its own: below the target folder, or where several runs at once are told to.
+/// Returns the folder in which a test keeps its files: below the target folder, or below `OZOLS_TEST_FOLDER`.
 fn kept(name: &str) -> PathBuf {
     let of_this_run = std::env::var_os("OZOLS_TEST_FOLDER");
     of_this_run
@@ -136,14 +136,14 @@ pub(crate) fn data(name: &str) -> String {
     text(&data_bytes(name))
 }
 
-/// Returns what is usual but for a change.
+/// Returns the default value with one change.
 pub(crate) fn but<T: Default>(change: impl FnOnce(&mut T)) -> T {
     let mut out = T::default();
     change(&mut out);
     out
 }
 
-/// A count, written as a string.
+/// Returns a count that is written as a string.
 pub(crate) fn count(v: &Value) -> u64 {
     v.as_str().unwrap().parse().unwrap()
 }
@@ -155,7 +155,7 @@ pub(crate) fn near(found: f64, stated: f64, tolerance: f64) {
     );
 }
 
-/// Closeness to nine digits, and of what is below one to so many places.
+/// Asserts that two numbers agree to nine digits, or to nine places if they are below one.
 pub(crate) fn to_nine_digits(found: f64, wanted: f64) {
     assert!(
         (found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()),
@@ -163,7 +163,7 @@ pub(crate) fn to_nine_digits(found: f64, wanted: f64) {
     );
 }
 
-/// The same of every component.
+/// Asserts that all components agree to nine digits.
 pub(crate) fn all_to_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
     found
         .into_iter()
@@ -171,32 +171,32 @@ pub(crate) fn all_to_nine_digits(found: [f64; 3], wanted: [f64; 3]) {
         .for_each(|(f, w)| to_nine_digits(f, w));
 }
 
-/// The place of the first line with this text in a file, as errors name it.
+/// Returns the place of the first line that contains this text, as errors name it: `FILE:LINE:`.
 #[track_caller]
 pub(crate) fn place_of(file: &str, content: &str, line_with: &str) -> String {
     let line = content.lines().position(|l| l.contains(line_with)).unwrap();
     format!("{file}:{}:", line + 1)
 }
 
-/// A text with the first of one thing replaced; it must be there.
+/// Returns a text with the first occurrence of a part replaced. The part must be there.
 pub(crate) fn changed(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1)
 }
 
-/// Exit code, standard output and standard error of a command.
+/// Returns the exit code, standard output and standard error of a command.
 pub(crate) fn ran<L: Line + ?Sized>(args: &L) -> (Option<i32>, String, String) {
     let o = run(args);
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }
 
-/// Exit code, standard output and standard error of a command that reads this from standard input.
+/// Runs a command with this standard input and returns its exit code, standard output and standard error.
 pub(crate) fn fed<L: Line + ?Sized>(args: &L, input: &str) -> (Option<i32>, String, String) {
     let o = ozols(args).write_stdin(input).output().unwrap();
     (o.status.code(), text(&o.stdout), text(&o.stderr))
 }
 
-/// Standard output and standard error of a command that succeeds.
+/// Returns standard output and standard error of a command that succeeds.
 #[track_caller]
 pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {
     let (code, said, told) = ran(args);
@@ -204,13 +204,13 @@ pub(crate) fn done<L: Line + ?Sized>(args: &L) -> (String, String) {
     (said, told)
 }
 
-/// Standard output of a command that succeeds.
+/// Returns the standard output of a command that succeeds.
 #[track_caller]
 pub(crate) fn ok<L: Line + ?Sized>(args: &L) -> String {
     done(args).0
 }
 
-/// Asserts that a command is refused with exit code 2 and these words.
+/// Asserts that a command ends with exit code 2 and an error that contains these words.
 #[track_caller]
 pub(crate) fn fails<L: Line + ?Sized>(args: &L, says: &str) {
     let (code, _, told) = ran(args);
@@ -222,7 +222,7 @@ pub(crate) fn fails<L: Line + ?Sized>(args: &L, says: &str) {
     );
 }
 
-/// Exit code, standard output and standard error of a command on a file with this text.
+/// Runs a command on a file with this text and returns its exit code, standard output and standard error.
 pub(crate) fn run_on(
     command: &str,
     name: &str,
@@ -300,7 +300,7 @@ pub(crate) fn written(name: &str, content: impl AsRef<[u8]>) -> (TempDir, &'stat
     (folder, path.to_str().unwrap().to_owned().leak())
 }
 
-/// A seed that no run before had; a failure tells it.
+/// Returns a new seed for each run; a failure names it.
 pub(crate) fn fresh() -> u64 {
     RandomState::new().build_hasher().finish() % 1_000_000
 }

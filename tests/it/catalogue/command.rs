@@ -9,25 +9,25 @@ pub(super) fn at(folder: &TempDir, name: &str) -> String {
     folder.path().join(name).display().to_string()
 }
 
-/// The rows of a question to a catalogue.
+/// Returns the rows of a query to a catalogue.
 pub(super) fn rows(file: &str, sql: &str) -> Vec<Value> {
     json(&["catalog", "query", file, sql, "--format", "json"])
         .list()
         .clone()
 }
 
-/// The same as CSV, without the head.
+/// Returns the lines of a query as CSV, without the header.
 pub(super) fn lines(file: &str, sql: &str) -> Vec<String> {
     let csv = ok(&["catalog", "query", file, sql, "--format", "csv"]);
     csv.lines().skip(1).map(str::to_owned).collect()
 }
 
-/// The free state of a file as it is analysed.
+/// Returns the analysis of the free state of a file.
 pub(super) fn free_state(file: &str) -> Value {
     json(&["analyze", file, "--format", "json"])["states"][0].clone()
 }
 
-/// What the script of a page is given.
+/// Returns the data of the script of a page.
 pub(super) fn script_data(html: &str) -> Value {
     let (_, after) = html
         .split_once("<script id=\"data\" type=\"application/json\">")
@@ -35,18 +35,18 @@ pub(super) fn script_data(html: &str) -> Value {
     serde_json::from_str(after.split_once("</script>").unwrap().0).unwrap()
 }
 
-/// A list that stands in a page deflated, in base64.
+/// Returns a list that a page holds as deflated data in base64.
 pub(super) fn unpacked(list: &Value) -> Vec<Value> {
     let bytes = STANDARD.decode(list.as_str().unwrap()).unwrap();
     serde_json::from_reader(ZlibDecoder::new(&bytes[..])).unwrap()
 }
 
-/// The cards of a page.
+/// Returns the cards of a page.
 pub(super) fn cards_of(html: &str) -> Vec<Value> {
     unpacked(&script_data(html)["cards"])
 }
 
-/// All that a catalogue holds, table by table, in order.
+/// Returns the contents of a catalogue, table by table.
 pub(super) fn whole(file: &str) -> String {
     [
         "structures ORDER BY id",

@@ -167,7 +167,9 @@ impl Met {
 fn is_as_the_twin_says(s: &Structure, l: &Drawn) -> Stacking {
     let f = figures(s, l).unwrap();
     let g = &filed(s, l);
-    let all = g.stroke(f.openings[0], f.openings[1]);
+    // Where jaws turn back or links lock, a little before.
+    let end = |k: usize, before: f64| f.openings[k] + f.ends[k].map_or(0.0, |_| before);
+    let all = g.stroke(end(0, 1e-3), end(1, -1e-3));
     match &f.stacking {
         Stacking::Planes {
             planes,

@@ -188,6 +188,11 @@ fn a_name_is_that_of_a_file() {
         // The other way round, what is made has such a name.
         here("catalog merge whole.db -o", name);
     }
+    #[cfg(unix)]
+    here(
+        "catalog page whole.db -o",
+        std::os::unix::ffi::OsStrExt::from_bytes(b"\xfe.html"),
+    );
 }
 
 /// What a foreign file says cannot steer a terminal: neither its words, nor the names of its columns, nor its own name.

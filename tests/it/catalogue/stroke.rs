@@ -13,7 +13,7 @@ use ozols::synthesis::structure::Structure;
 use ozols::synthesis::task::{AskedMotion, Limits, Task};
 use ozols::synthesis::workload::Workload;
 
-/// The gripper of a layout as its file has it.
+/// Returns the gripper of a layout, read from its mechanism file.
 pub(super) fn filed(s: &Structure, l: &Drawn) -> Gripper {
     let menu = Spec::default().menu().unwrap();
     let file = mechanism_file(s, l, &menu, &Workload::default());

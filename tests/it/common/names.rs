@@ -1,4 +1,4 @@
-//! Names that nearly every test needs. `tests/fuzz` has them, too, and nothing else of what tests share.
+//! Names that nearly every test needs. `tests/fuzz` includes this file, too.
 
 pub(crate) use itertools::Itertools;
 pub(crate) use num_bigint::BigUint;
@@ -24,7 +24,7 @@ pub(crate) use std::path::{Path, PathBuf};
 pub(crate) use std::process::Output;
 pub(crate) use std::sync::OnceLock;
 
-/// What a value of JSON is known to be.
+/// Accessors for JSON values of a known type.
 pub(crate) trait Json {
     fn list(&self) -> &Vec<Value>;
     fn word(&self) -> &str;
@@ -51,7 +51,7 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A built-in mechanism.
+/// Returns a built-in mechanism.
 pub(crate) fn built_in(name: &str) -> Mechanism {
     ozols::built_in(name).unwrap()
 }

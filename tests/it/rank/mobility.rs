@@ -23,8 +23,10 @@ use proptest::prelude::*;
 /// `noise` on every number.
 fn as_measured(m: &Mechanism, seed: u64, noise: f64, away: f64) -> Mechanism {
     let mut random = Noise::new(seed, 0);
-    let axis = [(); 3].map(|()| random.uniform());
-    let turn = RigidMotion::turn(axis, PI * random.uniform());
+    // A random quaternion.
+    let [w, x, y, z] = [(); 4].map(|()| random.uniform());
+    let axis = [x, y, z];
+    let turn = RigidMotion::turn(axis, 2.0 * length(axis).atan2(w));
     let scale = 10f64.powf(random.uniform());
     let size = m
         .joints
