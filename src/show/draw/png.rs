@@ -1,5 +1,5 @@
-//! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine, one without fonts
-//! included; the system's fonts are looked at only for characters it lacks.
+//! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine. System fonts serve only
+//! for characters that it lacks.
 
 use crate::draw::Size;
 use crate::draw::sheet::Drawing;

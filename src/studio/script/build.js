@@ -1,4 +1,4 @@
-// What is drawn as changes to the file.
+// Drawing as changes to the file.
 
 const add = (what, entry) => ({ do: "add", what, entry });
 const set = (what, id, key, value) => ({ do: "set", what, id, key, value });
@@ -181,7 +181,7 @@ async function mirrorSelection(k) {
   say(`Mirrored in ${"xyz"[k]}.`);
 }
 
-/** A copy beside what is selected. */
+/** A copy next to the selection. */
 function copySelection() {
   const by = 4 * gridStep();
   const [a, b] = paperAxes();

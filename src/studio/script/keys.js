@@ -1,6 +1,6 @@
 // All of it by keyboard.
 
-/** What the help lists. */
+/** The keys in the help. */
 const KEYS = [
   ["V B P G S J D O C", "tools: select, bar, plate, frame pin, slide, joint, drive, output, part held"],
   ["arrow keys", "move the cross (with a tool) or the selection by one grid step; with Shift by five"],

@@ -1,13 +1,13 @@
-// What is seen of a change before the program has answered: pins that are dragged take the ends of their links along.
+// The preview of a change before the program has answered: dragged pins take the ends of their links along.
 
 const preview = {
   /** Pins that are dragged, with where they are now, in the coordinates of the file. */
   moved: [],
-  /** What the program says of the change, as far as it has. */
+  /** The answer of the program, or null. */
   answer: null,
 };
 
-/** What is seen is that of the text again. */
+/** Shows the text again. */
 function endPreview() {
   Object.assign(preview, { moved: [], answer: null });
   takeScene();
@@ -34,7 +34,7 @@ function bent(scene) {
   };
 }
 
-/** Where a pin is while it is dragged. */
+/** The position of a pin while it is dragged. */
 const previewed = (at) => preview.moved.find(({ from }) => apart(from, at) < touching())?.to ?? at;
 
 /** What the scene does not have: links that no joint joins to the frame yet, and all where nothing can be judged. */

@@ -2,7 +2,7 @@
 // Python give, too.
 
 const desk = {
-  /** What was read of the newest text. */
+  /** The reading of the newest text. */
   look: null,
   /** The verdict, the scenes that move and the ideas of it, each as it comes. */
   verdict: null,
@@ -16,7 +16,7 @@ const desk = {
   /** How things stand with the file. */
   file: null,
   revision: -1,
-  /** The state that is looked at. */
+  /** The index of the shown state. */
   state: 0,
 };
 

@@ -32,7 +32,7 @@ function segmentsOf(scene) {
   return [...outlines, ...blocks].filter((s) => s.link !== scene.frame);
 }
 
-/** The link that is seen at a place, and the point of it at rest; null where there is none. */
+/** The link at a place of the picture, and its point at rest; null if there is none. */
 function linkAt(place) {
   const { scene, sight } = player;
   const pose = poseNow();

@@ -1,4 +1,4 @@
-// What a reader may take along: pictures as SVG or PNG files, tables as CSV on the clipboard.
+// What a reader can save: pictures as SVG or PNG files, tables as CSV on the clipboard.
 
 /** Pixels of a saved picture for each of the drawing's. */
 const FINE = 2;
@@ -114,7 +114,7 @@ function keepButtons(svgOf, nameOf, whole) {
 /** Rows of cells as CSV, as RFC 4180 has it. */
 const csv = (rows) => rows.map((cells) => cells.map((c) => (/[",\r\n]/.test(c) ? `"${c.replaceAll('"', '""')}"` : c)).join(",")).join("\r\n") + "\r\n";
 const cellText = (cell) => cell.innerText.replace(/\s+/g, " ").trim();
-/** The rows of a table as it stands. */
+/** The rows of a table as texts. */
 const rowsOf = (made) => [...made.rows].map((row) => [...row.cells].map(cellText));
 
 /** Puts text on the clipboard; by the old way where a browser keeps the new one from files. */

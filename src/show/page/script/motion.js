@@ -1,7 +1,7 @@
 // How a gripper moves: its pins from open to closed, by Newton's method from pose to pose.
 const STEPS = 24;
 
-/** Where a drawn point of a link is in a pose: three numbers for each link, its shift and its turn about the origin. */
+/** The position of a drawn point of a link in a pose: three numbers for each link, its shift and its turn about the origin. */
 function placed(pose, link, [x, y]) {
   const [dx, dy, t] = pose.slice(3 * link, 3 * link + 3);
   return [dx + x * Math.cos(t) - y * Math.sin(t), dy + x * Math.sin(t) + y * Math.cos(t)];
@@ -67,7 +67,7 @@ function conditions(d, pose, drive) {
   return out;
 }
 
-/** The pose near another with the drive elsewhere; null where there is none. */
+/** The pose near another with the drive elsewhere; null if there is none. */
 function poseAt(d, near, drive) {
   let pose = near.slice();
   for (let round = 0; round < 20; round += 1) {

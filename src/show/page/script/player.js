@@ -26,7 +26,7 @@ const player = {
 const knob = Object.fromEntries(["play", "range", "again", "loop", "shown", "home", "say", "trace", "untrace"].map((part) => [part, document.querySelector(`[data-part="${part}"]`)]));
 const poses = () => player.scene.moves[player.motion].poses;
 
-/** Where the links are. */
+/** The pose of the links. */
 const poseNow = () => (player.stress === null ? player.pulled ?? poses()[player.now] : null);
 
 function drawScreens() {
@@ -57,7 +57,7 @@ function stop() {
   knob.play.textContent = "Play";
 }
 
-/** The next picture: round again, or back from the end; none at the end where it is not to be repeated. */
+/** The next picture: around again, or back from the end; null at the end if the motion is not repeated. */
 function next() {
   const round = player.scene.moves[player.motion].closed;
   const last = player.forward ? poses().length - 1 : 0;
