@@ -52,7 +52,7 @@ impl Studio {
     /// Listens at a free port of this machine, for itself alone.
     ///
     /// # Errors
-    /// Where the file cannot be read, or no port is free.
+    /// Returns an error if the file cannot be read or no port is free.
     pub(crate) fn new(opening: Opening, request: Request) -> io::Result<Studio> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let door = Arc::new(Door::new(listener.local_addr()?.port())?);
@@ -74,7 +74,7 @@ impl Studio {
     /// unsaved work cannot be kept, that goes to `say`, and the studio serves on.
     ///
     /// # Errors
-    /// Where threads cannot be made.
+    /// Returns an error if threads cannot be started.
     pub(crate) fn serve(self, say: impl Fn(&str)) -> io::Result<Option<std::path::PathBuf>> {
         let Studio {
             listener,

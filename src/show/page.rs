@@ -96,7 +96,7 @@ fn head(name: &str) -> Markup {
 /// Writes the page.
 ///
 /// # Errors
-/// Where a coordinate of a variant has no value in the field of the search.
+/// Returns an error if a coordinate of a variant has no value in the field of the search.
 ///
 /// # Complexity
 /// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.

@@ -40,7 +40,7 @@ pub(super) struct Desk {
     /// Goes up whenever another text is on the desk.
     pub(super) revision: u64,
     pub(super) reading: Arc<DeskReading>,
-    /// What another program has written to the file since the last save.
+    /// The content of the file that another program has written since the last save.
     theirs: Option<Arc<[u8]>>,
     /// Work that a studio left behind unsaved.
     left: Option<(PathBuf, Arc<[u8]>)>,

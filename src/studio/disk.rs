@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// A frame and nothing else.
 pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
 
-/// What to open.
+/// The source of the first text.
 #[derive(Debug, Clone)]
 pub enum Opening {
     /// A file, which need not be there yet, and how a robot description is read.

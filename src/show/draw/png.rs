@@ -44,7 +44,7 @@ pub struct Picture {
 /// The drawing as PNG on white.
 ///
 /// # Errors
-/// Where the picture would be too large to be held.
+/// Returns an error if the picture would be too large for memory.
 pub fn png(drawing: &Drawing, size: Size) -> Result<Picture, PngError> {
     let zoom = match size {
         Size::Scale(zoom) => zoom,

@@ -147,7 +147,7 @@ fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
 /// The page of a catalogue, `file` being its name for the commands that go on with it.
 ///
 /// # Errors
-/// Where the database cannot be read.
+/// Returns an error if the database cannot be read.
 ///
 /// # Complexity
 /// A mechanism read for each structure.

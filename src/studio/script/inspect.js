@@ -1,6 +1,6 @@
 // The selection in fields: names, exact positions checked while typed, axes, types, roles.
 
-/** A field with its label; what is typed is tried at once and taken when it is left or Enter is pressed. */
+/** A field with its label; its text is tried while it is typed, and taken when it is left or Enter is pressed. */
 function field(label, value, { take, trial = null, wide = false, list = null }) {
   const input = element("input", { type: "text", value, spellcheck: "false", autocomplete: "off", class: wide ? "wide-input" : null, "aria-label": label, list });
   const wrong = element("span", { class: "wrong-words", role: "status" });

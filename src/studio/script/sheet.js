@@ -2,7 +2,7 @@
 
 const LAYERS = ["grid", "tints", "things", "loads", "marks", "names", "over"];
 const layer = {};
-/** What is pointed at: a thing, a contour, an idea, a self-stress. */
+/** The thing, contour, idea or self-stress under the pointer. */
 const pointedAt = { pin: null, link: null, contour: null, idea: null, stress: null };
 /** The greatest number of names next to pins. */
 const NAMED = 60;
@@ -118,7 +118,7 @@ function loadsOf(scene) {
 /** A ring round a place. */
 const ring = (at, r, kind) => svgElement("circle", { class: kind, cx: at[0], cy: at[1], r });
 
-/** What is selected, pointed at, or wrong. */
+/** The marks of the selection, of the thing under the pointer, and of errors. */
 function marksOf(paperOf) {
   const out = [];
   for (const p of pins()) {
@@ -206,7 +206,7 @@ function placeProblems(paperOf) {
   });
 }
 
-/** Another scene, or none, is what is looked at. */
+/** Shows another scene, or none. */
 function takeScene() {
   const scene = sceneNow();
   if (!scene) {

@@ -1,5 +1,5 @@
-// What is known of the desk, and the talk with the program that keeps it. Its answers are the values that the command line and
-// Python give, too.
+// The state of the desk, and the requests to the program. Its answers are the values that the command line and Python
+// give.
 
 const desk = {
   /** The reading of the newest text. */
@@ -44,7 +44,7 @@ function notice(id, words, ...buttons) {
   byId("notices").append(element("div", { class: "notice", id: `notice-${id}`, role: "alert" }, element("span", {}, words), ...made));
 }
 
-/** Sends something; the value that comes back, or null where it was refused, which is told. */
+/** Sends a request; returns the answer, or null if it was refused, which is shown. */
 async function post(path, body) {
   try {
     const answer = await fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
@@ -87,7 +87,7 @@ function takeFile(file) {
   tell("file", file);
 }
 
-/** Takes what was read of a text, unless a newer one is there already. */
+/** Takes the reading of a text, unless a newer one is known. */
 function takeLook(value) {
   takeFile(value.desk);
   if (value.file === undefined || value.revision < desk.revision) return;
@@ -139,7 +139,7 @@ async function draft(edits, use) {
   drafts.busy = false;
 }
 
-/** What was asked so far is of no use any more. */
+/** Discards the drafts so far. */
 function endDrafts() {
   drafts.asked = null;
   drafts.number += 1;

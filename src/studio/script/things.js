@@ -4,7 +4,7 @@ const listOf = (what) => desk.look?.file?.[what] ?? [];
 const thing = (what, id) => listOf(what).find((t) => t.id === id) ?? null;
 const frameOf = () => listOf("link").find((l) => l.role === "frame")?.id ?? null;
 
-/** Whether nothing is drawn yet on a sheet that is well. */
+/** Whether a readable sheet has no drawing yet. */
 const isEmpty = () => Boolean(desk.look?.file) && !listOf("joint").length && !listOf("point").length;
 
 /** The position of a joint or a point in numbers; null if its expressions have no value. */
@@ -13,7 +13,7 @@ function placeOf(what, id) {
   return desk.look?.places?.[what]?.[n] ?? null;
 }
 
-/** All pins: joints of the state that is looked at, and points, with their places. */
+/** All pins: joints of the shown state, and points, with their positions. */
 function pins() {
   const state = stateName();
   const there = (j) => !j.state || [j.state].flat().includes(state);

@@ -100,7 +100,7 @@ fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> 
     links
 }
 
-/// Returns the space for the joints. Symbols do not grow, so many joints need more space.
+/// Returns the space for the joints. Symbols do not grow, so a large number of joints needs more space.
 fn room_for(m: &Mechanism, joints: &[JointId]) -> Point {
     let more = roominess(m, joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
     ROOM.map(|r| r * more)

@@ -84,7 +84,7 @@ function loadTable(i) {
   return table(`Loads of the joints, ${poses}${norm}`, heads, rows);
 }
 
-/** Words on the variant that are no table. */
+/** Remarks on the variant. */
 function remarks(i) {
   const out = [];
   const idle = found.idle_words[found.idle_word[i]];

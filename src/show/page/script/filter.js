@@ -49,7 +49,7 @@ function drop(criterion) {
   refresh();
 }
 
-/** What a word such as 5-1:cylindrical asks of which joint, where it does. */
+/** The joint and type of a word such as 5-1:cylindrical, or null. */
 function wish(word) {
   const at = word.lastIndexOf(":");
   if (at < 1) return null;

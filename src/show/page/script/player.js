@@ -1,5 +1,5 @@
-// The player: one slider, one view and one choice of motion or self-stress for all pictures of a mechanism in space. Where it is
-// looked from, and how it is turned, is up to the page: `sightNow`, `isAtHome` and `goHome` are of it.
+// The player: one slider, one view and one choice of motion or self-stress for all pictures of a mechanism in space.
+// The page provides the view: `sightNow`, `isAtHome` and `goHome`.
 
 const RATE = 30;
 
@@ -16,7 +16,7 @@ const player = {
   side: 0,
   tilt: 0,
   sight: null,
-  /** What is dragged and where its links are; nothing on the way of the motion. */
+  /** The dragged link and the pose of all links; null on the motion. */
   body: null,
   pulled: null,
   /** Whether the next click is to trace a point, and the points. */
