@@ -1,10 +1,9 @@
-//! The studio: a page in the browser in which a mechanism is drawn, looked at and changed by hand, while the engine answers at
-//! every change.
+//! The studio: a page in the browser for drawing and changing a mechanism, with results at every change.
 //!
-//! The text of the file is the truth: every change edits it with its comments kept ([`crate::file::edit`]), and all windows show
-//! what is made of it. One thread analyses and searches, the newest text alone; a search under way ends when another comes. The
-//! server speaks to this machine, to who has the token of its address, and to no other page (`door`); what it reads and writes
-//! is the file that was opened, what lies beside it under names of its own, and nothing else (`disk`).
+//! The text of the file is the only state: every change edits it and keeps its comments ([`crate::file::edit`]), and
+//! all windows show its content. One thread analyses and searches the newest text only; a new text ends a search. The
+//! server answers requests from this machine with the token of its address, and from no other page (`door`). It reads
+//! and writes the open file, its own files in the same folder, and nothing else (`disk`).
 
 mod desk;
 mod disk;
@@ -32,7 +31,7 @@ use std::time::{Duration, Instant};
 
 /// Most requests with the token at a time: the windows' own, and some more.
 const CONNECTIONS: usize = 64;
-/// How often the file is looked at, and whether any window is left.
+/// The interval between checks of the file and the windows.
 const TICK: Duration = Duration::from_millis(100);
 /// Ticks between two looks at the file.
 const LOOK: u32 = 3;
@@ -53,7 +52,7 @@ impl Studio {
     /// Listens at a free port of this machine, for itself alone.
     ///
     /// # Errors
-    /// Where the file cannot be read, or no port is free.
+    /// Returns an error if the file cannot be read or no port is free.
     pub(crate) fn new(opening: Opening, request: Request) -> io::Result<Studio> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let door = Arc::new(Door::new(listener.local_addr()?.port())?);
@@ -75,7 +74,7 @@ impl Studio {
     /// unsaved work cannot be kept, that goes to `say`, and the studio serves on.
     ///
     /// # Errors
-    /// Where threads cannot be made.
+    /// Returns an error if threads cannot be started.
     pub(crate) fn serve(self, say: impl Fn(&str)) -> io::Result<Option<std::path::PathBuf>> {
         let Studio {
             listener,
@@ -121,7 +120,7 @@ impl Studio {
     }
 }
 
-/// Answers whoever comes, each on a thread of its own.
+/// Answers each connection on its own thread.
 fn listen(listener: &TcpListener, door: &Arc<Door>, room: &Arc<Room>) {
     let busy = Arc::new(AtomicUsize::new(0));
     let waiting = Arc::new(Waiting::default());

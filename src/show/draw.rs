@@ -1,8 +1,8 @@
 //! Drawings of a mechanism as self-contained SVG: the structural scheme, and the kinematic scheme from the coordinates.
 //!
-//! Both are for printing as well as for the screen: light and dark by the reader's setting, no script, no font file, the
-//! same bytes for the same input. Labels never touch each other or a symbol; where there is no room beside what they
-//! name, they stand farther away on a leader.
+//! Both are for print and screen: light and dark by the reader's setting, no script, no font file, the same bytes for
+//! the same input. Labels never touch each other or a symbol. A label without room next to its anchor is placed farther
+//! away, with a leader.
 
 mod kinematic;
 mod place;

@@ -1,8 +1,8 @@
 //! A report of one mechanism as one HTML page: the verdict, drawings, contours, and the redesigns to sort, filter and look at.
 //!
-//! The page needs nothing beside it: style, script and data stand in the file, and its content policy forbids the
-//! network. What a script shows of ten thousand variants is stored as columns of numbers and one symbol for each option
-//! of each joint, not as ten thousand drawings. Names come from files, so they enter as escaped text or JSON only.
+//! The page is one file: it contains style, script and data, and its content policy forbids the network. Variants are
+//! stored as columns of numbers and one symbol for each option of each joint, not as drawings. Names come from files,
+//! so they enter as escaped text or JSON only.
 
 #[cfg(feature = "store")]
 pub mod catalogue;
@@ -68,7 +68,7 @@ const SECTIONS: [(&str, &str); 5] = [
     ("commands", "How to get this"),
 ];
 
-/// What the search found and what its ideas are, where there are any.
+/// Returns the search and its ideas as columns, if there are any.
 fn found(page: &Page<'_>) -> Result<[Option<Value>; 2], AnalysisError> {
     let columns = |r: Option<&Redesigns<'_>>| {
         let some = r.filter(|r| !r.variants.is_empty());
@@ -96,7 +96,7 @@ fn head(name: &str) -> Markup {
 /// Writes the page.
 ///
 /// # Errors
-/// Where a coordinate of a variant has no value in the field of the search.
+/// Returns an error if a coordinate of a variant has no value in the field of the search.
 ///
 /// # Complexity
 /// Two drawings a state; for each variant a rank in each further state, and a scoring where the file states loads.

@@ -1,4 +1,4 @@
-//! What is on the desk: the text with all its earlier forms, the file it belongs to, and what others have written to that.
+//! The desk: the text with its history, its file, and what other programs have written to the file.
 
 use super::disk::{self, Kind, OpenFile, Opening};
 use super::reading::DeskReading;
@@ -40,7 +40,7 @@ pub(super) struct Desk {
     /// Goes up whenever another text is on the desk.
     pub(super) revision: u64,
     pub(super) reading: Arc<DeskReading>,
-    /// What another program wrote to the file while there was unsaved work.
+    /// The content of the file that another program has written since the last save.
     theirs: Option<Arc<[u8]>>,
     /// Work that a studio left behind unsaved.
     left: Option<(PathBuf, Arc<[u8]>)>,
@@ -98,7 +98,7 @@ impl Desk {
         self.revision += 1;
     }
 
-    /// Another text is on the desk: it is read, and kept where it is not saved.
+    /// Reads a changed text, and stores it if it is not saved.
     fn turn(&mut self) {
         self.read();
         self.keep();
@@ -213,7 +213,7 @@ impl Desk {
         self.file().folder().to_path_buf()
     }
 
-    /// Goes so many steps back, or forward where it is negative; whether there were any.
+    /// Goes one step back or forward in the history, and returns true if there was one.
     pub(super) fn step(&mut self, forward: bool) -> bool {
         let to = if forward {
             Some(self.at + 1).filter(|t| *t < self.steps.len())

@@ -1,4 +1,4 @@
-//! The file on disk: read, written beside and renamed, and the unsaved work that is kept next to it.
+//! The file on disk: reading, atomic writing, and the unsaved work next to it.
 
 use crate::api::MAX_DESCRIPTION_BYTES;
 use crate::builtin;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// A frame and nothing else.
 pub(super) const BLANK: &str = include_str!("shelf/blank.toml");
 
-/// What to begin with.
+/// The source of the first text.
 #[derive(Debug, Clone)]
 pub enum Opening {
     /// A file, which need not be there yet, and how a robot description is read.
@@ -41,7 +41,7 @@ pub(super) struct OpenFile {
     pub(super) kind: Kind,
     /// How it is read where it is a robot description.
     pub(super) options: robots::Options,
-    /// What the file is known to hold; nothing where it was not there.
+    /// The known content of the file, or `None` if it did not exist.
     pub(super) held: Option<Arc<[u8]>>,
     kept: AutosavedText,
 }
@@ -84,7 +84,7 @@ impl OpenFile {
         folder.unwrap_or(Path::new("."))
     }
 
-    /// What is in it now; nothing where it is not there.
+    /// Returns its content, or `None` if it does not exist.
     pub(super) fn now(&self) -> io::Result<Option<Arc<[u8]>>> {
         match disk::bytes(&self.path, MAX_DESCRIPTION_BYTES) {
             Ok(bytes) => Ok(Some(bytes.into())),
@@ -155,7 +155,8 @@ impl OpenFile {
         self.kept.path.clone()
     }
 
-    /// Unsaved work that a studio left behind that is no more, and where it is. What is in the file already is taken away.
+    /// Returns unsaved work of a studio that has ended, and its path. Deletes the work if the file has the same
+    /// content.
     pub(super) fn left_behind(&self) -> Option<(PathBuf, Arc<[u8]>)> {
         let all = (0..KEEPERS).map(|n| self.keeper(n));
         let found = all.filter(|p| p.is_file()).find_map(|path| {
@@ -173,8 +174,8 @@ impl OpenFile {
     }
 }
 
-/// Writes a file under a temporary name in the folder of a path, then renames it to the path: no part of a file stands there. An error
-/// names the path.
+/// Writes a temporary file in the folder of a path and renames it to the path, so that no part of a file is ever there.
+/// An error names the path.
 fn written(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<File> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
     let made = || {
@@ -188,7 +189,8 @@ fn written(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::
     })
 }
 
-/// A file beside another, which others may read as the system lets them: temporary files are the owner's alone otherwise.
+/// Creates a temporary file in a folder, with the usual permissions. By default, only the owner can read temporary
+/// files.
 fn beside(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut made = tempfile::Builder::new();
     made.prefix(".tmp-ozols-");
@@ -222,7 +224,7 @@ pub(super) fn free_name(folder: &Path, stem: &str) -> PathBuf {
     free.next().unwrap_or_else(|| folder.join("mechanism.toml"))
 }
 
-/// What a file of a person's choice may be called: a plain name that ends in .toml, in the folder that is open already.
+/// Returns the name if a file may have it: a plain name with the ending .toml, in the open folder.
 pub(super) fn plain_name(name: &str) -> Option<&str> {
     let stem = name.strip_suffix(".toml")?;
     let plain = |c: char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_' | '.' | '+');

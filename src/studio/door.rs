@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Bytes of a token.
 const TOKEN: usize = 16;
 
-/// What has to be in a request.
+/// What a request must have.
 #[derive(Debug)]
 pub(super) struct Door {
     /// The only name that this server answers to: others may lead here by a name of theirs.
@@ -37,7 +37,7 @@ impl Door {
         format!("http://{}/{}/", self.host, self.token)
     }
 
-    /// What is asked for behind the token; a refusal where the request is not of our page.
+    /// Returns the path after the token, or a refusal if the request is not from our page.
     pub(super) fn admit<'a>(&self, asked: &'a Asked) -> Result<&'a str, Reply> {
         let refused = |why| Err(Reply::refusal(403, why));
         if asked.header("host") != Some(self.host.as_str()) {

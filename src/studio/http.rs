@@ -14,7 +14,7 @@ pub(super) const BODY: usize = 9 << 20;
 /// So long the head of a request may take as a whole, and its body as well; so long an answer may wait for who asked.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// What is asked for.
+/// A request.
 #[derive(Debug)]
 pub(super) struct Asked {
     pub(super) method: String,
@@ -25,20 +25,20 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// The value of a header that stands once; none where it stands never or several times, which no browser does.
+    /// Returns the value of a header, or `None` if the request has it never or several times, which no browser does.
     pub(super) fn header(&self, name: &str) -> Option<&str> {
         let mut all = self.headers.iter().filter(|(n, _)| n == name);
         let first = all.next().map(|(_, v)| v.as_str());
         first.filter(|_| all.next().is_none())
     }
 
-    /// Whether a header stands there at all.
+    /// Returns true if the request has a header.
     pub(super) fn has(&self, name: &str) -> bool {
         self.headers.iter().any(|(n, _)| n == name)
     }
 }
 
-/// What is answered.
+/// A reply.
 #[derive(Debug)]
 pub(super) struct Reply {
     pub(super) status: u16,
@@ -50,7 +50,7 @@ pub(super) struct Reply {
     pub(super) packed: bool,
 }
 
-/// What is shorter is not packed: it goes in one piece anyway.
+/// A shorter body is not compressed, since it fits in one packet.
 const SHORT: usize = 1400;
 
 impl Reply {

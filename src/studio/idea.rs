@@ -42,7 +42,7 @@ pub(super) fn marks(
     all.map(|v| v.unwrap_or(Value::Null)).collect()
 }
 
-/// What an idea makes of what was read.
+/// The effect of an idea on the open file.
 pub(super) enum Taken {
     /// Changes to a mechanism file.
     Edits(Vec<Edit>),

@@ -104,7 +104,7 @@ fn stage() -> Markup {
     }
 }
 
-/// What moves the drawing: the same parts as in the report.
+/// Returns the controls of the motion: the same parts as in the report.
 fn player() -> Markup {
     html! {
         div.player id="player" role="group" aria-label="Motion" {

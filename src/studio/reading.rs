@@ -1,4 +1,4 @@
-//! What is made of a text: the mechanism, its entries and places, and every problem beside the thing that it concerns.
+//! The reading of a text: the mechanism, its entries and positions, and every problem with the thing that it concerns.
 
 use super::disk::{Kind, OpenFile};
 use crate::api;
@@ -20,10 +20,10 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What is made of a text.
+/// The reading of a text.
 #[derive(Debug, Default)]
 pub(super) struct DeskReading {
-    /// What can be analysed: all of it, or what hangs on the frame.
+    /// The mechanism to analyse: all of it, or the part connected to the frame.
     pub(super) mechanism: Option<Arc<Mechanism>>,
     /// Whether that is less than what is written.
     pub(super) partly: bool,
@@ -31,7 +31,7 @@ pub(super) struct DeskReading {
     pub(super) file: Option<MechanismFile>,
     /// Where joints and points of interest are.
     places: [Vec<Option<[f64; 3]>>; 2],
-    /// What is wrong or doubtful.
+    /// Errors and warnings.
     told: Vec<Value>,
     /// The lines of each item.
     items: Vec<Value>,
@@ -187,7 +187,7 @@ fn line_of(text: &str, at: usize) -> usize {
     before.matches('\n').count() + 1
 }
 
-/// Where the items of a text are, in its order.
+/// The ranges of the items of a text, in its order.
 #[derive(Debug, Default)]
 struct Items(Vec<(Thing, usize, Range<usize>)>);
 

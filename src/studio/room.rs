@@ -1,4 +1,4 @@
-//! What the windows, the worker and the requests share; and the windows that are open, to each of which is sent what is new as it comes.
+//! The state shared by windows, worker and requests, and the open windows, which receive each event.
 
 use super::desk::{Desk, Refused};
 use super::disk::Opening;
@@ -14,7 +14,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// What was told of the newest text, for windows that come later.
+/// The events about the newest text, for windows that open later.
 #[derive(Debug, Default)]
 struct Told {
     revision: u64,
@@ -39,7 +39,7 @@ pub(super) struct Room {
     ended: AtomicBool,
     /// The revision whose search is to end with what it has.
     stopped: AtomicU64,
-    /// Searches that were begun and ended, for who wants to know that no two are at work.
+    /// The numbers of searches begun and ended, for tests that no two run at once.
     pub(super) searches: [AtomicU64; 2],
 }
 
@@ -81,7 +81,7 @@ impl Room {
         locked(&self.desk)
     }
 
-    /// Does something at the desk and tells all windows what became of it.
+    /// Changes the desk and informs all windows.
     pub(super) fn at_desk(
         &self,
         act: impl FnOnce(&mut Desk) -> Result<(), Refused>,
@@ -114,7 +114,7 @@ impl Room {
         look
     }
 
-    /// Waits for a text that is newer than a revision; none where the room is closed.
+    /// Waits for a text newer than a revision, and returns its revision; `None` if the room is closed.
     pub(super) fn wait(&self, done: u64) -> Option<u64> {
         let mut desk = self.desk();
         loop {

@@ -44,7 +44,7 @@ pub(super) fn list() -> Value {
     Value::Array(std::iter::once(first).chain(built_in).collect())
 }
 
-/// What is opened under a name of the list.
+/// Returns the opening of a name of the list.
 pub(super) fn opening(name: &str, folder: PathBuf) -> Option<Opening> {
     let own = OWN.iter().find(|(n, ..)| *n == name);
     if let Some((name, _, text)) = own {

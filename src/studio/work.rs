@@ -69,7 +69,7 @@ fn or_trouble(room: &Room, revision: u64, work: impl FnOnce()) {
     }
 }
 
-/// Where there is nothing to judge.
+/// Returns the verdict without a mechanism.
 fn nothing(revision: u64) -> Value {
     json!({ "revision": revision, "analysis": null, "words": [], "scenes": [] })
 }

@@ -3,14 +3,14 @@
 use super::plane::{Point, Rect, norm, segments_cross, sub};
 use super::text::width;
 
-/// A label that wants a place.
+/// A label to be placed.
 #[derive(Clone, Debug)]
 pub struct Wish {
     /// Its width.
     pub width: f64,
     /// Its height.
     pub height: f64,
-    /// What it names.
+    /// The point that it names.
     pub anchor: Point,
     /// How far from the anchor it must stay.
     pub clear: f64,
@@ -19,7 +19,7 @@ pub struct Wish {
 }
 
 impl Wish {
-    /// Returns the wish of a text for a place so far from what it names at least.
+    /// Returns the wish of a text for a place at least `clear` away from its anchor.
     pub fn of(text: &str, size: f64, anchor: Point, clear: f64) -> Wish {
         Wish {
             width: width(text, size),
@@ -31,12 +31,12 @@ impl Wish {
     }
 }
 
-/// Where a label went.
+/// The place of a label.
 #[derive(Clone, Debug)]
 pub struct LabelPlace {
     /// Its box.
     pub rect: Rect,
-    /// A line to what it names, where that is not near.
+    /// A line to the anchor, or `None` if the label is near it.
     pub leader: Option<(Point, Point)>,
 }
 

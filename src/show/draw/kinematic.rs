@@ -76,14 +76,14 @@ struct Spot {
     rect: Rect,
 }
 
-/// The texts round a scheme: the line under the title where it is not the figures, the end of the description, the legend.
+/// The texts of a scheme: the line under the title if it is not the figures, the end of the description, the legend.
 struct Words {
     shows: Option<String>,
     more: String,
     legend: Vec<(Swatch, String)>,
 }
 
-/// What a label says, and how it looks.
+/// The text of a label and its look.
 #[derive(Clone)]
 struct LabelText {
     class: String,
@@ -101,15 +101,15 @@ struct Kinematic<'a> {
     /// The corners of each link that is a plate of a fold.
     facets: Vec<Option<Vec<Vector>>>,
     grounds: Vec<Ground>,
-    /// Where the joints are in space.
+    /// The joints in space.
     places: Vec<JointInSpace>,
-    /// The points of interest of links that are there.
+    /// The points of interest of the links drawn.
     points: Vec<Marked>,
     /// The ways of points over a motion, and whether each ends where it began.
     traces: (Vec<Vec<Point>>, bool),
     /// The loads that are shown.
     arrows: Vec<Arrow>,
-    /// What is shown instead of the figures, where it is something else.
+    /// The line under the title if it is not the figures.
     shows: Option<String>,
     projection: Projection,
 }
@@ -176,7 +176,7 @@ impl Kinematic<'_> {
         })
     }
 
-    /// Lays a sheet out round an area and draws on it; `draw` is given what moves the scheme to its place.
+    /// Lays out a sheet for an area and draws on it; `draw` gets the offset of the scheme on the sheet.
     fn on_sheet(&self, area: Rect, words: Words, draw: impl FnOnce(&mut Sheet, Point)) -> Drawing {
         let [what, figures] = self.subject.subtitle(&self.what());
         let caption = Caption {

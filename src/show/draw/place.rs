@@ -1,5 +1,5 @@
-//! Where links and joints stand in a picture: layouts of schemes, found by chance that is the same each time, and projections of
-//! mechanisms in space.
+//! Placement of links and joints in a picture: layouts of schemes, found with a seeded random search, and projections
+//! of mechanisms.
 
 pub(super) mod graph;
 pub(super) mod initial_layout;

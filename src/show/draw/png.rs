@@ -1,5 +1,5 @@
-//! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine, one without fonts
-//! included; the system's fonts are looked at only for characters it lacks.
+//! A drawing as PNG. DejaVu Sans is built in, so that the picture is the same on every machine. System fonts serve only
+//! for characters that it lacks.
 
 use crate::draw::Size;
 use crate::draw::sheet::Drawing;
@@ -44,7 +44,7 @@ pub struct Picture {
 /// The drawing as PNG on white.
 ///
 /// # Errors
-/// Where the picture would be too large to be held.
+/// Returns an error if the picture would be too large for memory.
 pub fn png(drawing: &Drawing, size: Size) -> Result<Picture, PngError> {
     let zoom = match size {
         Size::Scale(zoom) => zoom,

@@ -25,7 +25,7 @@ const DRIVE: f64 = 15.5;
 /// σ_i of a contour and its range over all orders, where known.
 type Share = Option<(usize, (usize, usize))>;
 
-/// What is drawn, by place in the drawing rather than in the mechanism.
+/// The parts of the drawing, indexed by their places in it.
 struct Parts {
     joints: Vec<JointId>,
     links: Vec<LinkId>,
@@ -89,7 +89,7 @@ fn parts(subject: &Subject<'_>) -> Parts {
     }
 }
 
-/// The joints as the coordinates have them, seen along each axis and aslant.
+/// Returns the joints as the coordinates have them, seen along each axis and obliquely.
 fn hints(subject: &Subject<'_>, parts: &Parts) -> Vec<Vec<Point>> {
     let at = |j: &JointId| {
         let p = &subject.mechanism.joints[*j].frame.point;

@@ -46,16 +46,16 @@ pub struct Drawing {
     pub symbols: Vec<Rect>,
 }
 
-/// What stands in front of a legend's text.
+/// The sample in front of a legend's text.
 #[derive(Debug, Clone)]
 pub(super) enum Swatch {
     /// The tint of a contour with so many redundant constraints, and its number.
     Tint(usize, String),
-    /// Drawn by the caller's function round the origin.
+    /// Drawn around the origin by a function.
     Symbol(fn(&mut Sheet)),
     /// A joint with text in it.
     Joint(&'static str, String),
-    /// Shapes round the origin.
+    /// Shapes around the origin.
     Shapes(Vec<Shape>),
 }
 
@@ -119,7 +119,7 @@ impl Shape {
 pub(super) struct Sheet {
     xml: Xml,
     size: Point,
-    /// Where the coordinates of the open groups begin.
+    /// The origin of the open groups.
     origin: Point,
     labels: Vec<Label>,
     symbols: Vec<Rect>,
@@ -138,7 +138,7 @@ pub(super) struct Caption<'a> {
 /// The room that title and legend leave: where the drawing's own rectangle is moved to.
 #[derive(Debug)]
 pub(super) struct SheetPlan {
-    /// What to add to the drawing's coordinates.
+    /// The offset of the drawing.
     pub(super) shift: Point,
     pub(super) size: Point,
     columns: usize,
@@ -146,7 +146,7 @@ pub(super) struct SheetPlan {
     pub(super) legend_top: f64,
 }
 
-/// How wide a sheet with such a drawing is at least.
+/// The minimum width of a sheet.
 const LEAST: f64 = 580.0;
 
 /// Lays the sheet out round a drawing that covers `area`, with `strip` pixels below it for other things.
@@ -249,12 +249,12 @@ impl Sheet {
         self.xml.end();
     }
 
-    /// What the open group says when one points at it.
+    /// Writes the tooltip of the open group.
     pub(super) fn tip(&mut self, text: &str) {
         self.xml.tag("title").text(text);
     }
 
-    /// Rules beside those of every drawing.
+    /// Writes further style rules.
     pub(super) fn style(&mut self, rules: &str) {
         self.xml.tag("style").text(rules);
     }
@@ -272,7 +272,7 @@ impl Sheet {
         self.xml.end();
     }
 
-    /// Shows a piece by its id, as what stands for a joint.
+    /// Shows a piece by its id, as the symbol of a joint.
     pub(super) fn joint_use(&mut self, joint: &str, id: &str, at: Point) {
         self.xml
             .tag("use")
@@ -283,7 +283,7 @@ impl Sheet {
             .close();
     }
 
-    /// One picture of several that stand in one place; one of them is seen.
+    /// Draws one of several pictures at the same place, of which one is visible.
     pub(super) fn frame(&mut self, number: usize, seen: bool, draw: impl FnOnce(&mut Sheet)) {
         let n = number.to_string();
         let mut tag = self
@@ -398,7 +398,7 @@ impl Sheet {
         self.symbols.push(rect.moved(self.origin));
     }
 
-    /// Draws what stands in front of a row of the legend.
+    /// Draws the sample in front of a row of the legend.
     fn swatch(&mut self, swatch: &Swatch, at: Point) {
         let (name, value) = match swatch {
             Swatch::Tint(_, label) => ("data-contour-key", label.as_str()),

@@ -1,4 +1,4 @@
-//! What is drawn: a mechanism in one state with its couplings, and what a redesign of it changed.
+//! The subject of a drawing: a mechanism in one state with its couplings, and the changes of a redesign.
 
 use crate::draw::sheet::{SMALL, Sheet, Swatch};
 use crate::model::mechanism::{JointId, LinkId, Mechanism, StateId};
@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 /// The class of the style sheet that the lines of couplings have.
 pub(super) const COUPLING: &str = "fine dash";
 
-/// What is to be drawn.
+/// The subject of a drawing.
 #[derive(Debug, Clone)]
 pub struct Subject<'a> {
     /// The mechanism.
@@ -23,14 +23,14 @@ pub struct Subject<'a> {
     pub state: StateId,
     /// Its figures in that state, where they are known: contours are tinted by their share of the redundant constraints.
     pub analysis: Option<&'a StateAnalysis>,
-    /// What a redesign changed, where the mechanism is one.
+    /// The changes, if the mechanism is a redesign.
     pub marks: Option<Marks>,
 }
 
-/// What a redesign changed.
+/// The changes of a redesign.
 #[derive(Debug, Clone, Default)]
 pub struct Marks {
-    /// What the redesign is called, such as `variant 1`.
+    /// The name of the redesign, such as `variant 1`.
     pub name: String,
     /// Changed joints, with their classes and the words for it: `2-3: V → III spherical`.
     pub changed: Vec<(JointId, String)>,
@@ -38,7 +38,7 @@ pub struct Marks {
     pub joints: usize,
     /// Links from this one on are added.
     pub links: usize,
-    /// The mechanism with its present joints in place of the changed ones, to be seen from the same side.
+    /// The mechanism with its present joints in place of the changed ones, for the same view.
     pub before: Option<Mechanism>,
 }
 
@@ -131,7 +131,7 @@ impl Subject<'_> {
         }
     }
 
-    /// What the drawing is, and the mechanism's figures.
+    /// Returns the name of the drawing and the mechanism's figures.
     pub(super) fn subtitle(&self, what: &str) -> [String; 2] {
         let state = &self.mechanism.states[self.state];
         let what = if self.mechanism.states.len() > 1 {
@@ -190,7 +190,7 @@ impl Subject<'_> {
         out
     }
 
-    /// Draws the lines of the couplings between joints that stand at `place`.
+    /// Draws the lines of the couplings between joints; `place` gives their positions.
     pub(super) fn draw_couplings(
         &self,
         sheet: &mut Sheet,

@@ -29,7 +29,7 @@ const SCRIPT: [&str; 9] = [
     include_str!("script/structure.js"),
 ];
 
-/// What a card is made of, but for its drawing and its ideas.
+/// The columns of a card, without its drawing and its ideas.
 const CARD: &str = "SELECT id, name, structures.links, input, symmetry, parallel, jaws_at_frame, truss, mechanism, crossings, link_ratio, \
      k.transmission, force_ratio, pin_force, efficiency, width, height, reached, shortfall, \
      b.planes, b.links AS in_planes, b.structure IS NOT NULL AS stacked, opening_min, opening_max, travel, closes, force_min, force_mean, force_max, jaw_a_motion, jaw_b_motion, jaw_c_motion, jaw_turn, ends_closing, \
@@ -64,7 +64,7 @@ const MORE: [(&str, &str, &str, &str); 8] = [
 ];
 /// Grippers whose files and ideas are unpacked together.
 const TOGETHER: usize = 64;
-/// What a card of a drawn mechanism is made of.
+/// The columns of a card of a drawn mechanism.
 const DRAWN: &str = "SELECT id, name, description, mode, links, joints, contours, input, mechanism, mobility, redundant, finite, \
      CAST(determinate AS TEXT) AS determinate, CAST(admissible AS TEXT) AS determinate_w1, certainty, best_cost, 1 AS drawn \
      FROM drawn ORDER BY links, best_cost, id";
@@ -147,7 +147,7 @@ fn left_out_table(without: &[Map<String, Value>]) -> maud::Markup {
 /// The page of a catalogue, `file` being its name for the commands that go on with it.
 ///
 /// # Errors
-/// Where the database cannot be read.
+/// Returns an error if the database cannot be read.
 ///
 /// # Complexity
 /// A mechanism read for each structure.

@@ -1,4 +1,4 @@
-//! What a page tells.
+//! The contents of a page.
 
 use crate::draw::{Drawing, Scene};
 use crate::model::mechanism::Mechanism;
@@ -24,14 +24,14 @@ pub struct Page<'a> {
     pub redesigns: Result<Redesigns<'a>, String>,
     /// The same search as a list of ideas, each by its first variant, where the redesigns are not one already.
     pub ideas: Option<Redesigns<'a>>,
-    /// It in space in each state, to be turned and moved, where there is more to see than in a drawing; with [`SHOWN`] idle
-    /// freedoms and self-stresses at most.
+    /// The mechanism in space in each state, if there is more to see than in a drawing; with at most [`SHOWN`] idle
+    /// freedoms and self-stresses.
     pub scenes: Vec<Option<(Drawing, Scene)>>,
     /// How to get the same from the command line.
     pub commands: Commands,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Debug)]
 pub struct Redesigns<'a> {
     /// Counts and conditions.
@@ -49,9 +49,9 @@ pub struct Redesigns<'a> {
 /// How to get what a page shows from the command line: commands quoted for a shell.
 #[derive(Debug, Clone)]
 pub struct Commands {
-    /// What each gives, and the command.
+    /// What each command gives, and the command.
     pub rows: Vec<(String, String)>,
-    /// The same about one variant, with `{}` for its number; none where other commands cannot be asked the same.
+    /// The same about one variant, with `{}` for its number; empty if there is no such command.
     pub variant: Vec<(String, String)>,
     /// The same about one idea.
     pub idea: Vec<(String, String)>,

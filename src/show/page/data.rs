@@ -1,4 +1,4 @@
-//! What the script of a page knows, as JSON inside the page.
+//! The data of the page's script, as JSON inside the page.
 
 use super::contents::Page;
 use super::symbols::places;

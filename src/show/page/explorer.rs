@@ -1,5 +1,5 @@
-//! What the script fills: the stage beside the verdict, with the mechanism as built and next to it what is chosen, both moved by one slider,
-//! and the frame of the redesigns with filters, table and chart.
+//! The parts that the script fills: the stage with the original mechanism and the chosen one, moved by one slider, and
+//! the frame of the redesigns with filters, table and chart.
 
 use super::contents::{Page, SHOWN};
 use crate::view::analysis::Analysis;
@@ -73,7 +73,7 @@ fn player(analysis: &Analysis<'_>) -> Markup {
     }
 }
 
-/// What is told of the choice.
+/// Returns the text about the choice.
 fn chosen() -> Markup {
     html! {
         div.chosen id="chosen" role="group" aria-labelledby="chosen-head" tabindex="0" hidden {

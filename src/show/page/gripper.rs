@@ -71,13 +71,13 @@ struct SeenJoint<'a> {
     way: f64,
 }
 
-/// What of a mechanism is seen in the plane of x and y.
+/// The part of a mechanism that is visible in the plane of x and y.
 struct View<'a> {
     joints: Vec<SeenJoint<'a>>,
     /// Threads along the axis in the plane about which the drive turns.
     threads: Vec<&'a Joint>,
     links: Vec<LinkId>,
-    /// Whether it is one of three sides round the x axis, with the next laid opposite it.
+    /// Whether it is one of three sides around the x axis, with the next one drawn opposite.
     folded: bool,
 }
 
@@ -142,7 +142,8 @@ impl<'a> View<'a> {
         })
     }
 
-    /// Where the jaws grip, where that is known of all. What a person drew may say by its forces where the part is.
+    /// Returns the gripping points of the jaws, or `None` if one is unknown. In a drawn mechanism, a force may show the
+    /// position of the part.
     fn tips(&self, m: &Mechanism, jaws: &[LinkId]) -> Option<Vec<[f64; 2]>> {
         let tip = |jaw: &LinkId| {
             let points = m.points.iter().map(|p| (p.link, &p.point));
@@ -258,7 +259,7 @@ fn geared(view: &View<'_>, coupling: &Coupling, scale: f64) -> Option<Value> {
     }))
 }
 
-/// Of a nut that slides along a screw which is driven in the frame.
+/// Returns the thread of a nut that slides along a screw driven in the frame.
 fn threaded(m: &Mechanism, view: &View<'_>, thread: &Joint, scale: f64) -> Option<Value> {
     let drive = view.joints.iter().position(|j| j.joint.drive)?;
     let held = view.joints[drive].joint;

@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 
 /// Pictures of a motion where nobody says how many: at 30 a second, 2.4 seconds.
 const STEPS: usize = 72;
-/// Most pictures: each stands in the file.
+/// The greatest number of pictures, each of which is part of the file.
 const MOST: usize = 600;
 
 /// A motion.
@@ -176,7 +176,7 @@ impl Moving {
     }
 }
 
-/// The stroke that the drive is to make: the one given, or the file's own; none where it goes as far as it can.
+/// Returns the stroke of the drive: the given one or the file's own; `None` if it goes as far as it can.
 fn stroke_asked(
     m: &Mechanism,
     slide: bool,
@@ -197,7 +197,7 @@ fn stroke_asked(
     Ok(Some(asked))
 }
 
-/// Where a way begins and where it ends; nothing of one without a pose.
+/// Returns the ends of a motion, or `None` if it has no pose.
 fn ends_of(way: &Way) -> Option<[f64; 2]> {
     Some([*way.at.first()?, *way.at.last()?])
 }

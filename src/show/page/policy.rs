@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 pub(super) const STYLE: &str = concat!(include_str!("look.css"), include_str!("page.css"));
 
-/// What stands for the policy until all that it allows is written.
+/// The placeholder of the policy until everything that it allows is written.
 pub(super) const POLICY: &str = "default-src 'none'";
 
 /// The page with the policy that allows its scripts and styles in place of the first `stand_in`. Text of mechanisms is

@@ -1,4 +1,4 @@
-//! A mechanism as it is, state by state: figures, drawings, contours and self-stresses.
+//! The original mechanism, state by state: figures, drawings, contours and self-stresses.
 
 use super::contents::Page;
 use super::{swaps, verdict};

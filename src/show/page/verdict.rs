@@ -16,7 +16,7 @@ use itertools::Itertools;
 use maud::{Markup, html};
 use num_traits::{One, Zero};
 
-/// Idle motions told at most.
+/// The greatest number of idle motions listed.
 const TOLD: usize = 4;
 
 pub(super) fn html(page: &Page<'_>, analysis: &Analysis<'_>) -> Markup {
@@ -46,7 +46,7 @@ fn capitalised(text: &str) -> String {
     first.into_iter().chain(rest).collect()
 }
 
-/// What that means, in sentences.
+/// Returns the meaning of the verdict, in sentences.
 pub fn state(told: &State<'_>) -> Vec<String> {
     let s = told.found;
     let mut out = Vec::new();
@@ -124,7 +124,7 @@ fn moves(told: &State<'_>) -> String {
     }
 }
 
-/// What the search says, in one or two sentences.
+/// Returns the result of the search, in one or two sentences.
 fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     let r = match &page.redesigns {
         Ok(r) => r,
@@ -185,7 +185,7 @@ fn redesigns(page: &Page<'_>, s: &State<'_>) -> String {
     out + &best(r) + "."
 }
 
-/// The conditions beside the redundant constraints.
+/// Returns the conditions other than redundant constraints.
 fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     let s = if one { "s" } else { "" };
     let have = if one { "has" } else { "have" };
@@ -215,7 +215,7 @@ fn conditions(m: &Mechanism, r: &Redesigns<'_>, one: bool) -> String {
     }
 }
 
-/// What the best is like.
+/// Returns a description of the best variant.
 fn best(r: &Redesigns<'_>) -> String {
     let search = &r.found.search;
     let like = |v: &Assignment| match v.key.changes() {

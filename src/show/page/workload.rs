@@ -1,4 +1,4 @@
-//! What the joints of each variant bear, and its scores, where the file states loads.
+//! The joint loads and scores of each variant, if the file states loads.
 
 use super::contents::Redesigns;
 use crate::model::ranking::Term;
@@ -11,15 +11,16 @@ use serde_json::{Value, json};
 /// A column of what is known of some variants only.
 type Column<T> = Vec<Option<T>>;
 
-/// What one variant scores; `None` where its loads have no equilibrium.
+/// The scores of a variant, or `None` if its loads have no equilibrium.
 type Scored = Option<(Scores, Vec<Option<Bearing>>)>;
 
-/// What is this small beside the greatest of its kind is rounding.
+/// A value below this share of the greatest of its kind is a rounding error.
 const NOTHING: f64 = 1e-9;
 /// A moment of the greatest force on an arm as short as this, in metres, is too.
 const ARM: f64 = 1e-12;
 
-/// Returns scores and bearings of the variants for the script; none where the file states no loads and asks for no ranking.
+/// Returns scores and bearings of the variants for the script, or `None` if the file states no loads and no ranking is
+/// requested.
 pub(super) fn workload(r: &Redesigns<'_>) -> Option<Value> {
     let Bearings {
         poses,

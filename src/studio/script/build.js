@@ -1,4 +1,4 @@
-// What is drawn as changes to the file.
+// Drawing as changes to the file.
 
 const add = (what, entry) => ({ do: "add", what, entry });
 const set = (what, id, key, value) => ({ do: "set", what, id, key, value });
@@ -27,10 +27,10 @@ function newJoint(links, point, kind, also, more = {}) {
   return add("joint", { id, links, type: kind, point, axis: more.axis ?? axisFor(kind), ...own, ...more });
 }
 
-/** The link that a new one is joined to at a pin: not the frame, where there is a choice. */
+/** The link that a new one is joined to at a pin; another than the frame if there is a choice. */
 const partnerAt = (pin) => pin.links.find((l) => l !== frameOf()) ?? pin.links[0];
 
-/** What it takes for a link to be at a place: a joint with what is there, or a free end. */
+/** The changes that put a link at a position: a joint with the pin there, or a free end. */
 function ending(link, spot, also) {
   if (spot.pin?.what === "joint") {
     const old = thing("joint", spot.pin.id);
@@ -78,7 +78,7 @@ async function ground(spot, kind = type) {
   select([{ what: "joint", id: joint.entry.id }]);
 }
 
-/** A slide: what is at a place goes along the frame, a new link where nothing is. */
+/** Adds a slide along the frame: of the link at a position, or of a new one. */
 async function addSlide(spot) {
   if (spot.pin || spot.link) return ground(spot, "prismatic");
   const id = freeLink();
@@ -87,7 +87,7 @@ async function addSlide(spot) {
   select([{ what: "joint", id: joint.entry.id }]);
 }
 
-/** A part that is held, touched at a place of a link: in a state of its own. */
+/** Adds a contact of a held part with a link, in a state of its own. */
 async function addContact(spot) {
   const link = spot.pin ? partnerAt(spot.pin) : spot.link;
   if (!link || link === frameOf()) return say("Click the face of a jaw: a pin, a point or a place of a link.", true);
@@ -169,7 +169,7 @@ async function copies(where, axisOf) {
   return pairs;
 }
 
-/** The mirror image of what is selected, in a plane of the coordinates; the search is told which joints are images. */
+/** The mirror image of the selection in a plane of the coordinates; the search learns which joints are images. */
 async function mirrorSelection(k) {
   const flip = (v) => flipped(v, k);
   const pairs = await copies(flip, flip);
@@ -181,7 +181,7 @@ async function mirrorSelection(k) {
   say(`Mirrored in ${"xyz"[k]}.`);
 }
 
-/** A copy beside what is selected. */
+/** A copy next to the selection. */
 function copySelection() {
   const by = 4 * gridStep();
   const [a, b] = paperAxes();

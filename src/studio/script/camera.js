@@ -1,5 +1,4 @@
-// From where the sheet is looked at: along an axis of the coordinates, or aslant in space. It stays where it is while the
-// mechanism changes.
+// The view of the sheet: along an axis of the coordinates, or oblique. It stays while the mechanism changes.
 
 /** Right, up and towards the reader. */
 const PLANES = {
@@ -135,7 +134,7 @@ function gridStep() {
   return [1, 2, 5, 10].map((s) => s * ten).find((s) => s >= least - 1e-12);
 }
 
-/** Takes the first view of a mechanism: along an axis where the drawing of it is, else aslant as that. */
+/** The first view of a mechanism: along an axis if its drawing is, else oblique. */
 function firstView(scene) {
   const same = Object.entries(PLANES).find(([, view]) => view.every((v, i) => dot(v, scene.view[i]) > 0.999));
   const flat = scene.view[2].some((x) => Math.abs(x) > 0.999);

@@ -1,4 +1,4 @@
-// What to change: counts, and the ten best ideas; one under the pointer is marked on the drawing, a click takes it.
+// The ideas: counts and the ten best; the one under the pointer is marked on the drawing, a click takes it.
 
 const changeLine = ({ changes }) => changesInWords(changes.map((c) => [c.joint, c.to])) || "nothing to change";
 

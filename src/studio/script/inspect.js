@@ -1,6 +1,6 @@
-// What is selected, in fields: names, places typed exactly and checked as they are typed, axes, types, roles.
+// The selection in fields: names, exact positions checked while typed, axes, types, roles.
 
-/** A field with its label; what is typed is tried at once and taken when it is left or Enter is pressed. */
+/** A field with its label; its text is tried while it is typed, and taken when it is left or Enter is pressed. */
 function field(label, value, { take, trial = null, wide = false, list = null }) {
   const input = element("input", { type: "text", value, spellcheck: "false", autocomplete: "off", class: wide ? "wide-input" : null, "aria-label": label, list });
   const wrong = element("span", { class: "wrong-words", role: "status" });
@@ -88,7 +88,7 @@ function aboutPoint(p) {
   ];
 }
 
-/** What can be done with what is selected. */
+/** The actions on the selection. */
 function acts() {
   const mirrors = paperAxes().map((k) => button(`Mirror ${"xyz"[k]}`, () => mirrorSelection(k), `The image with ${"xyz"[k]} turned round; a pair for the search`));
   return element("div", { class: "acts", role: "group", "aria-label": "Do with it" },

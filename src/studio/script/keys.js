@@ -1,6 +1,6 @@
 // All of it by keyboard.
 
-/** What the help lists. */
+/** The keys in the help. */
 const KEYS = [
   ["V B P G S J D O C", "tools: select, bar, plate, frame pin, slide, joint, drive, output, part held"],
   ["arrow keys", "move the cross (with a tool) or the selection by one grid step; with Shift by five"],
@@ -61,7 +61,7 @@ function letGo() {
 
 const undo = (which) => inTurn(which, {});
 
-/** What the cross is at: something may have been put there since it came. */
+/** The spot under the cross; something may be new there. */
 function crossNow() {
   if (!tool.at) return spotAt(middleOf(), "pen");
   const again = spotAt(toPaper(tool.at.at), "pen");
@@ -103,7 +103,7 @@ function listenToKeys() {
     const writes = event.target.matches?.("input, textarea, select");
     if (document.querySelector("dialog[open]")) return;
     const held = event.ctrlKey || event.metaKey;
-    // the text has an undo of its own while it is typed in
+    // the text field has its own undo while it has the focus
     if (held && !event.altKey && event.key in HELD && (!writes || event.key === "s")) {
       event.preventDefault();
       sendText();

@@ -1,6 +1,6 @@
 // Starts the page, and keeps its parts in step.
 
-/** Saves; a file that is not there yet is asked a name for. */
+/** Saves; asks for a name if the file does not exist yet. */
 function save() {
   const { name, there, kind } = desk.file;
   if (there || kind !== "toml") return inTurn("save", { name: null }).then((done) => done && say("Saved."));

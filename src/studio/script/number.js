@@ -13,7 +13,7 @@ function rounded(x, step) {
 /** The number that a text is, or null. */
 const numeral = (text) => (/^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text) : null);
 
-/** What is typed as the file has it: a number where it is one. */
+/** The text as the file has it: a number if it is one. */
 function typed(text) {
   const plain = text.trim();
   return numeral(plain) === null ? plain : plain.replace(/^\+/, "").replace(/^(-?)\./, "$10.").replace(/\.$/, "").replace(/\.e/i, "e");

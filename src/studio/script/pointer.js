@@ -52,7 +52,7 @@ function plateAt(paper) {
   return found?.id ?? null;
 }
 
-/** What a tool gets of a place: a pin, a place of a link, or an empty one; where it is, and how that is written. */
+/** The spot of a tool: a pin, a point of a link, or an empty position, with its coordinates as written. */
 function spotAt(paper, kind, free = false) {
   const deep = [...camera.centre];
   const k = depthAxis();
@@ -70,7 +70,7 @@ function lastDeep() {
   return (all.find((p) => isSelected(p.what, p.id)) ?? all[0])?.at ?? [0, 0, 0];
 }
 
-/** Takes hold of a pin: it goes where it is dragged, with all that stands at its place, and its mirror image with it. */
+/** Drags a pin, with everything at its position and with its mirror image. */
 function dragPin(pin) {
   const all = pinsAt(pin.at);
   const base = coordinatesOf(pin);
@@ -155,7 +155,7 @@ function click(event) {
   return select([{ what, id }]);
 }
 
-/** What is under a pointer that holds nothing. */
+/** Marks the thing under the pointer. */
 function hover(event) {
   if (event.pointerType === "touch") return;
   const paper = paperAt(event);

@@ -1,13 +1,13 @@
-// What is seen of a change before the program has answered: pins that are dragged take the ends of their links along.
+// The preview of a change before the program has answered: dragged pins take the ends of their links along.
 
 const preview = {
   /** Pins that are dragged, with where they are now, in the coordinates of the file. */
   moved: [],
-  /** What the program says of the change, as far as it has. */
+  /** The answer of the program, or null. */
   answer: null,
 };
 
-/** What is seen is that of the text again. */
+/** Shows the text again. */
 function endPreview() {
   Object.assign(preview, { moved: [], answer: null });
   takeScene();
@@ -15,7 +15,7 @@ function endPreview() {
 
 const inScene = (scene, p) => times(minus(p, scene.middle), scene.scale);
 
-/** The scene that is looked at: what the newest verdict has, or of a change that is tried. */
+/** The present scene: of a change that is tried, or of the newest verdict. */
 function sceneNow() {
   const tried = preview.answer?.verdict?.scenes?.[desk.state];
   const moving = desk.motion?.revision === desk.verdict?.revision ? desk.motion : null;
@@ -34,10 +34,10 @@ function bent(scene) {
   };
 }
 
-/** Where a pin is while it is dragged. */
+/** The position of a pin while it is dragged. */
 const previewed = (at) => preview.moved.find(({ from }) => apart(from, at) < touching())?.to ?? at;
 
-/** What the scene does not have: links that no joint joins to the frame yet, and all where nothing can be judged. */
+/** Links that are not in the scene: those not yet joined to the frame, or all if there is no verdict. */
 function looseLinks() {
   const names = new Set(sceneNow()?.names ?? []);
   const stale = !desk.look?.whole && !desk.look?.partly;

@@ -2,9 +2,9 @@
 
 const LAYERS = ["grid", "tints", "things", "loads", "marks", "names", "over"];
 const layer = {};
-/** What is pointed at: a thing, a contour, an idea, a self-stress. */
+/** The thing, contour, idea or self-stress under the pointer. */
 const pointedAt = { pin: null, link: null, contour: null, idea: null, stress: null };
-/** Most names that are written beside pins. */
+/** The greatest number of names next to pins. */
 const NAMED = 60;
 
 function makeSheet() {
@@ -75,7 +75,7 @@ function corner3() {
 /** The state that is judged: of a change that is tried, or of the text. */
 const judgedState = () => (preview.answer?.verdict ?? desk.verdict)?.analysis?.states[desk.state] ?? null;
 
-/** Where a joint of the scene is on paper, in the pose that is seen. */
+/** The position of a joint of the scene on paper, in the present pose. */
 function jointOnPaper(scene, sight, pose, j) {
   const p = carried(pose, j.links[0], j.at);
   return plus(times([dot(sight.view[0], p), -dot(sight.view[1], p)], sight.fit.scale), sight.fit.at);
@@ -95,7 +95,7 @@ function tints(scene, sight, pose) {
   });
 }
 
-/** What an idea puts at the joints of the scene. */
+/** The symbols of an idea at the joints of the scene. */
 function swapsOfIdea() {
   const marks = desk.ideas?.marks?.[desk.state];
   const idea = pointedAt.idea === null ? null : desk.ideas?.found?.variants[pointedAt.idea];
@@ -118,7 +118,7 @@ function loadsOf(scene) {
 /** A ring round a place. */
 const ring = (at, r, kind) => svgElement("circle", { class: kind, cx: at[0], cy: at[1], r });
 
-/** What is selected, pointed at, or wrong. */
+/** The marks of the selection, of the thing under the pointer, and of errors. */
 function marksOf(paperOf) {
   const out = [];
   for (const p of pins()) {
@@ -191,7 +191,7 @@ function loosePins(paperOf) {
   return pins().filter((p) => stale || !known.has(p.id)).map((p) => ring(paperOf(p), p.what === "joint" ? 6 : 3.5, p.what === "joint" ? "joint loose" : "ink loose"));
 }
 
-/** Problems beside the things that they concern. */
+/** Problems next to the things that they concern. */
 function placeProblems(paperOf) {
   const at = pins().flatMap((p) => toldOf(p.what, p.id).filter((t) => t.grave).map((t) => ({ t, at: paperOf(p) })));
   const list = byId("beside");
@@ -206,7 +206,7 @@ function placeProblems(paperOf) {
   });
 }
 
-/** Another scene, or none, is what is looked at. */
+/** Shows another scene, or none. */
 function takeScene() {
   const scene = sceneNow();
   if (!scene) {

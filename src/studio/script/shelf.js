@@ -1,4 +1,4 @@
-// What to start from: an empty sheet, a four-bar, a gripper, and all built-in mechanisms as pictures.
+// The choice of a start: an empty sheet, a four-bar, a gripper, and all built-in mechanisms as pictures.
 
 function card({ name, what }) {
   const picture = element("img", { src: `picture/${encodeURIComponent(name)}.svg`, alt: "", loading: "lazy", width: 150, height: 110 });

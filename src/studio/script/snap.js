@@ -1,7 +1,7 @@
-// Where a pin goes that is set or dragged: onto another pin, onto its mirror image, in line with one, or onto the grid; written
-// exactly in each case, the first three as the other pin has it.
+// Snapping of a pin that is set or dragged: to another pin, to its mirror image, in line with one, or to the grid. The
+// coordinates are exact; the first three copy those of the other pin.
 
-/** So near, in pixels, a place is taken for another. */
+/** The distance, in pixels, within which a position snaps to another. */
 const PULL = 9;
 
 const coordinatesOf = (pin) => thing(pin.what, pin.id).point;

@@ -1,8 +1,8 @@
-// What is known of the desk, and the talk with the program that keeps it. Its answers are the values that the command line and
-// Python give, too.
+// The state of the desk, and the requests to the program. Its answers are the values that the command line and Python
+// give.
 
 const desk = {
-  /** What was read of the newest text. */
+  /** The reading of the newest text. */
   look: null,
   /** The verdict, the scenes that move and the ideas of it, each as it comes. */
   verdict: null,
@@ -16,7 +16,7 @@ const desk = {
   /** How things stand with the file. */
   file: null,
   revision: -1,
-  /** The state that is looked at. */
+  /** The index of the shown state. */
   state: 0,
 };
 
@@ -44,7 +44,7 @@ function notice(id, words, ...buttons) {
   byId("notices").append(element("div", { class: "notice", id: `notice-${id}`, role: "alert" }, element("span", {}, words), ...made));
 }
 
-/** Sends something; the value that comes back, or null where it was refused, which is told. */
+/** Sends a request; returns the answer, or null if it was refused, which is shown. */
 async function post(path, body) {
   try {
     const answer = await fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
@@ -87,7 +87,7 @@ function takeFile(file) {
   tell("file", file);
 }
 
-/** Takes what was read of a text, unless a newer one is there already. */
+/** Takes the reading of a text, unless a newer one is known. */
 function takeLook(value) {
   takeFile(value.desk);
   if (value.file === undefined || value.revision < desk.revision) return;
@@ -139,7 +139,7 @@ async function draft(edits, use) {
   drafts.busy = false;
 }
 
-/** What was asked so far is of no use any more. */
+/** Discards the drafts so far. */
 function endDrafts() {
   drafts.asked = null;
   drafts.number += 1;

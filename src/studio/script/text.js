@@ -1,4 +1,4 @@
-// The file as text, beside the drawing: what is typed there is read at once, and every problem leads to its line.
+// The file as text, next to the drawing: changes are read at once, and every problem leads to its line.
 
 let typing = 0;
 

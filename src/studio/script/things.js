@@ -4,16 +4,16 @@ const listOf = (what) => desk.look?.file?.[what] ?? [];
 const thing = (what, id) => listOf(what).find((t) => t.id === id) ?? null;
 const frameOf = () => listOf("link").find((l) => l.role === "frame")?.id ?? null;
 
-/** Whether nothing is drawn yet on a sheet that is well. */
+/** Whether a readable sheet has no drawing yet. */
 const isEmpty = () => Boolean(desk.look?.file) && !listOf("joint").length && !listOf("point").length;
 
-/** Where a joint or a point is, in numbers; null where its expressions are none. */
+/** The position of a joint or a point in numbers; null if its expressions have no value. */
 function placeOf(what, id) {
   const n = listOf(what).findIndex((t) => t.id === id);
   return desk.look?.places?.[what]?.[n] ?? null;
 }
 
-/** All pins: joints of the state that is looked at, and points, with their places. */
+/** All pins: joints of the shown state, and points, with their positions. */
 function pins() {
   const state = stateName();
   const there = (j) => !j.state || [j.state].flat().includes(state);
@@ -31,7 +31,7 @@ const apart = (p, q) => Math.hypot(...p.map((x, i) => x - q[i]));
 /** Distances in the file below this are none. */
 const touching = () => 1e-6 * Math.max(1, ...pins().map((p) => Math.max(...p.at.map(Math.abs))));
 
-/** All that stands at one place. */
+/** All pins at one position. */
 const pinsAt = (at) => pins().filter((p) => apart(p.at, at) < touching());
 
 /** A name that nothing of a kind has. */
@@ -68,7 +68,7 @@ function selectNext(step) {
   say(`${what} ${id}`);
 }
 
-/** What is wrong or doubtful at a thing. */
+/** The errors and warnings about a thing. */
 function toldOf(what, id) {
   const n = listOf(what).findIndex((t) => t.id === id);
   return (desk.look?.told ?? []).filter((t) => t.about && t.about[0] === what && t.about[1] === n);

@@ -14,7 +14,7 @@ const TOOLS = {
 };
 const tool = { name: "select", spots: [], at: null };
 
-/** The link that is meant by a spot: of a pin the one that is no frame. */
+/** The link of a spot: at a pin, the one that is not the frame. */
 const linkOfSpot = (spot) => spot.link ?? (spot.pin ? partnerAt(spot.pin) : null);
 
 function markRole(spot, role) {
@@ -75,7 +75,7 @@ function finishTool() {
   return TOOLS[tool.name].several && spots.length > 1 ? addLink(spots) : null;
 }
 
-/** What the tool shows on the sheet: spots so far, the line to the next, and what it is drawn to. */
+/** The picture of the tool: spots so far, the line to the next, and snapping guides. */
 function toolPicture() {
   const out = [];
   const spots = tool.spots.map((s) => toPaper(s.at));
@@ -92,7 +92,7 @@ function toolPicture() {
   return out;
 }
 
-/** The symbol of a joint type as the drawings have it, aslant, so that types differ. */
+/** The symbol of a joint type as in drawings, oblique, so that types differ. */
 function typeIcon(kind) {
   const picture = svgElement("svg", { class: "ozd", viewBox: "-20 -20 40 40", width: 26, height: 26, "aria-hidden": "true" });
   const z = SLIDES.includes(kind) ? [1, 0, 0] : [0, 0, 1];

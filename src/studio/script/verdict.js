@@ -57,7 +57,7 @@ function stressRows(s) {
   });
 }
 
-/** Plays an idle freedom to and fro; once more to end it. */
+/** Plays an idle freedom, or ends it. */
 function wiggle(n) {
   const which = player.scene?.moves.findIndex((m) => m.name.startsWith(`idle freedom ${n + 1}:`)) ?? -1;
   if (which < 0) return;

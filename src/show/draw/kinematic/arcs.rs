@@ -1,5 +1,5 @@
-//! Links that are no straight bars: those of spherical linkages as arcs about the point where their axes meet, as such links are
-//! made and as they pass each other, and bars that bow out round what stands in their way.
+//! Links that are not straight bars: arcs about the common point of the axes in spherical linkages, and bars that bow
+//! out to pass another.
 
 use super::Kinematic;
 use crate::draw::place::projection::places::meet;
@@ -46,7 +46,7 @@ impl Kinematic<'_> {
         Some(lifted.collect())
     }
 
-    /// The points along a link between two axes that meet, whose joints stand apart from there.
+    /// Returns the points along a link between two intersecting axes whose joints are apart from the intersection.
     pub(super) fn arc_in_space(&self, row: usize) -> Option<Vec<Vector>> {
         let (link, of) = &self.links[row];
         let &[i, j] = of.as_slice() else { return None };

@@ -17,13 +17,13 @@ const HEAD: f64 = 8.0;
 pub(super) struct Arrow {
     /// The place of its link among those drawn.
     pub(super) link: usize,
-    /// Where it begins.
+    /// Its start.
     pub(super) at: Vector,
     /// From its beginning to its tip, in pixels; a moment turns about it to the right.
     pub(super) along: Vector,
     /// Whether it is a moment.
     pub(super) turns: bool,
-    /// What it says when one points at it.
+    /// Its tooltip.
     pub(super) tip: String,
 }
 

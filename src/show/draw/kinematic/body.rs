@@ -11,7 +11,7 @@ use crate::svg::plane::{Point, add, cross, dot, mean, norm, polyline, scale, sub
 
 /// A plate thinner than this, in pixels, is a bar.
 const THIN: f64 = 2.0;
-/// Bars that lie on each other over more than this, in pixels, are told apart.
+/// Bars that overlap by more than this, in pixels, are separated.
 const SHARED: f64 = 8.0;
 /// How far bars that would lie on another bow out, in the order tried.
 const BOWS: [f64; 6] = [0.0, 13.0, -13.0, 24.0, -24.0, 35.0];
@@ -26,7 +26,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Of a link with joints at these points.
+    /// Creates the shape of a link with joints at these points.
     pub(super) fn new(joints: &[Point]) -> Body {
         let mut points: Vec<Point> = Vec::new();
         for &p in joints {
@@ -146,7 +146,7 @@ fn farthest(points: &[Point]) -> [Point; 2] {
     best.0
 }
 
-/// Half of a point's mark, which is no circle: those are joints.
+/// Half the width of a point's mark. The mark is not a circle, because joints are circles.
 const MARK: f64 = 4.0;
 
 /// A point of interest.
@@ -155,13 +155,13 @@ pub(super) struct Marked {
     /// Its name.
     pub(super) id: String,
     pub(super) link: LinkId,
-    /// Where it is in space.
+    /// Its position in space.
     pub(super) place: Vector,
-    /// Where it is on paper.
+    /// Its position on paper.
     pub(super) at: Point,
 }
 
-/// The points of links that are there, and where an output link is to hold the object that is not there in this state.
+/// Returns the points of the links drawn, and the gripping points of outputs on an object that is absent in this state.
 pub(super) fn marked(m: &Mechanism, state: StateId, links: &[(LinkId, Vec<usize>)]) -> Vec<Marked> {
     let there = |l: LinkId| links.iter().any(|(k, _)| *k == l);
     let own = m.points.iter().map(|p| (&p.id, p.link, real(&p.point)));

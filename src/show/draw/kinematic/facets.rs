@@ -8,14 +8,14 @@ use crate::model::joint_type::JointType;
 
 /// Creases that pass each other by more than this share of a plate's size do not meet.
 const MEET: f64 = 1e-4;
-/// Corners farther from the middle of their crease than this many times the plate's size are none of its own.
+/// A corner farther from the middle of its crease than this many times the plate's size is not a corner of the plate.
 const FARTHEST: f64 = 3.0;
 
 impl Kinematic<'_> {
     /// The corners of each plate of a fold, by row of the links; none of other mechanisms.
     ///
-    /// A fold has plates with three creases or more, and each of its links is such a plate: hinges alone, whose axes lie in a plane
-    /// and meet. Rings about one vertex are spherical linkages, and drawn as such.
+    /// A fold has a plate with three creases or more, and each of its links is a plate: its joints are hinges whose
+    /// axes lie in a plane and meet. A ring about one vertex is a spherical linkage and is drawn as one.
     pub(super) fn facets_in_space(&self) -> Vec<Option<Vec<Vector>>> {
         let all: Vec<_> = (0..self.links.len())
             .map(|row| self.facet_in_space(row))
@@ -70,8 +70,8 @@ struct Crease {
     ends: [Vector; 2],
 }
 
-/// Where a crease ends: where the next ones of its plate meet it on either side, or as far on the other side of its point where one
-/// meets it on one side alone; nothing where a crease passes it by or none meets it nearby.
+/// Returns the ends of a crease: its intersections with the next creases of its plate. If one end has none, it is as
+/// far as the other. Returns `None` if a crease passes it or none meets it nearby.
 fn crease(own: &JointInSpace, all: &[&JointInSpace], size: f64) -> Option<Crease> {
     let mut reach = [f64::NEG_INFINITY, f64::INFINITY];
     for other in all {

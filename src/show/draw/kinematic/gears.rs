@@ -7,14 +7,15 @@ use crate::model::joint_type::{Coupling, Freedom};
 use crate::svg::plane::Point;
 use std::f64::consts::TAU;
 
-/// Gears with more than this times the distance of their axes for a radius are no gears that anyone would draw.
+/// The greatest radius of a gear that is drawn, in distances of the axes.
 const LARGEST: f64 = 6.0;
 
 /// A circle in space: the end of the coupling it is about, its middle, its normal, its radius.
 type Circle = (usize, Vector, Vector, f64);
 
 impl Kinematic<'_> {
-    /// The pitch circles of a coupling on paper with the joints at some places, each a closed line; none where no gears can make it.
+    /// Returns the pitch circles of a coupling on paper with the joints at the given places, each a closed line; empty
+    /// if gears cannot make it.
     pub(in crate::draw) fn pitch_circles(
         &self,
         coupling: &Coupling,
@@ -50,7 +51,7 @@ impl Kinematic<'_> {
         circles.unwrap_or_default().into_iter().map(line).collect()
     }
 
-    /// The lines from joint to joint that stand for couplings without circles.
+    /// Returns the lines between joints for couplings without circles.
     pub(in crate::draw) fn coupling_lines(&self) -> Vec<(Point, Point)> {
         let m = self.subject.mechanism;
         let place = |j| self.spots.iter().find(|s| s.joint == j).map(|s| s.at);

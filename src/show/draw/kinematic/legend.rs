@@ -1,4 +1,4 @@
-//! What a kinematic scheme says in words: the rows of its legend, and itself for those who do not see it.
+//! The texts of a kinematic scheme: its legend and its description.
 
 use super::{Kinematic, Spot};
 use crate::draw::sheet::{Shape, Sheet, Swatch};
@@ -68,7 +68,7 @@ impl Kinematic<'_> {
         types.into_iter().map(row).collect()
     }
 
-    /// Where the drawing is not as the coordinates have it.
+    /// Returns a row for each way in which the drawing departs from the coordinates.
     fn departures(&self) -> impl Iterator<Item = (Swatch, String)> {
         let moved = self.places.iter().any(|p| p.moved);
         let moved = moved.then_some("joints that meet in a point stand farther along their axes");

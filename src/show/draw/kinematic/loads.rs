@@ -1,4 +1,4 @@
-//! The arrows of a self-stress in a kinematic scheme, each on the link it loads, beside the joint that passes it.
+//! The arrows of a self-stress in a kinematic scheme, each on the loaded link, near the joint.
 
 use super::Kinematic;
 use super::arrow::{Arrow, shapes};
@@ -71,7 +71,7 @@ impl Kinematic<'_> {
         add3(joint, times(inward, share))
     }
 
-    /// Where an arrow is on paper.
+    /// Returns the shapes of an arrow on paper.
     pub(super) fn arrow_shapes(&self, arrow: &Arrow) -> Vec<Shape> {
         shapes(self.projection.flat(arrow.at), arrow, &self.projection.view)
     }

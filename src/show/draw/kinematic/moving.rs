@@ -26,7 +26,7 @@ pub(crate) const RATE: usize = 30;
 pub struct Moved<'a> {
     /// The pose of the file, which has the links' sizes.
     pub pose: &'a Pose,
-    /// The way of the drive.
+    /// The motion of the drive.
     pub way: &'a Way,
     /// The drive and how far it goes, in words.
     pub words: &'a str,
@@ -39,7 +39,7 @@ pub fn kinematic_moving(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>)
     Moving::new(Kinematic::new(subject, sight), moved).draw()
 }
 
-/// Draws the kinematic scheme at the pose of the file, with the ways of its points over a motion.
+/// Draws the kinematic scheme at the pose of the file, with the paths of its points over a motion.
 #[must_use]
 pub fn kinematic_along(subject: &Subject<'_>, sight: &Sight, moved: &Moved<'_>) -> Drawing {
     let mut rest = Kinematic::new(subject, sight);
@@ -168,7 +168,7 @@ impl<'a> Moving<'a> {
     }
 }
 
-/// What the legend says of flags, where there are any.
+/// Returns the legend row of flags, or `None` if the picture has none.
 pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
     let there = frame.lines.iter().any(|(class, _)| *class == "flag");
     there.then(|| {
@@ -179,7 +179,7 @@ pub(super) fn flag_row(frame: &MovingPicture) -> Option<(Swatch, String)> {
 }
 
 impl Kinematic<'_> {
-    /// What the drawing is.
+    /// Returns the name of the drawing.
     pub(super) fn what(&self) -> String {
         format!("Kinematic scheme {}", self.projection.view.name)
     }

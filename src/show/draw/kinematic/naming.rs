@@ -1,4 +1,4 @@
-//! Where the names of joints and links go.
+//! Placement of the names of joints and links.
 
 use super::moving::frame::MovingPicture;
 use super::{Kinematic, LabelText, Spot};
@@ -8,7 +8,7 @@ use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};
 use crate::svg::plane::{Point, Rect, add, scale, sub, unit};
 use crate::svg::text::{names, width};
 
-/// A small label, so far from what it names at least.
+/// Returns a small label at least `clear` away from its anchor.
 fn small(class: String, text: String, anchor: Point, clear: f64) -> (Wish, LabelText) {
     let wish = Wish::of(&text, SMALL, anchor, clear);
     let label = LabelText {
@@ -20,7 +20,7 @@ fn small(class: String, text: String, anchor: Point, clear: f64) -> (Wish, Label
 }
 
 impl Kinematic<'_> {
-    /// Where the ids of joints, links and points of interest go, in this order, and what is written there.
+    /// Returns the places and texts of the ids of joints, links and points of interest, in this order.
     pub(super) fn place_labels(
         &self,
         rest: &MovingPicture,
@@ -56,7 +56,7 @@ impl Kinematic<'_> {
         lines
     }
 
-    /// The ids of joints, each beside its symbol.
+    /// Returns the ids of joints, to be placed next to their symbols.
     fn joint_names(&self) -> Vec<(Wish, LabelText)> {
         let m = self.subject.mechanism;
         let spots = self.spots.iter();
@@ -71,7 +71,7 @@ impl Kinematic<'_> {
         self.spots.iter().zip(texts).map(one).collect()
     }
 
-    /// The ids of links, each beside or on its body.
+    /// Returns the ids of links, to be placed next to or on their bodies.
     fn link_names(&self) -> Vec<(Wish, LabelText)> {
         let m = self.subject.mechanism;
         let links = self.links.iter();
@@ -105,7 +105,7 @@ impl Kinematic<'_> {
             .collect()
     }
 
-    /// What the name of a link belongs to, and middles for it.
+    /// Returns the anchor of the name of a link, and preferred middles.
     fn link_places(&self, link: usize, size: Point) -> (Point, Vec<(Point, f64)>) {
         let (l, of) = &self.links[link];
         if self.is_frame(*l) {

@@ -1,4 +1,4 @@
-//! Where a kinematic scheme has its joints on paper, and how its links and its grounds keep clear of each other there.
+//! Placement of joints, links and grounds of a kinematic scheme on paper.
 
 use crate::draw::kinematic::body::{self, Body, marked};
 use crate::draw::kinematic::{Kinematic, Spot};
@@ -86,7 +86,7 @@ impl<'a> Kinematic<'a> {
     }
 }
 
-/// The links that have some of the joints, each with the places of its own among these.
+/// Returns the links of some joints, each with the indices of its own.
 fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> {
     let mut links = Vec::new();
     for l in m.link_ids() {
@@ -100,7 +100,7 @@ fn joined_links(m: &Mechanism, joints: &[JointId]) -> Vec<(LinkId, Vec<usize>)> 
     links
 }
 
-/// The room for so many joints: symbols do not grow, so that many of them need more paper.
+/// Returns the space for the joints. Symbols do not grow, so a large number of joints needs more space.
 fn room_for(m: &Mechanism, joints: &[JointId]) -> Point {
     let more = roominess(m, joints) * (joints.len() as f64 / 12.0).sqrt().clamp(1.0, 3.0);
     ROOM.map(|r| r * more)

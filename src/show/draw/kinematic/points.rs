@@ -27,7 +27,7 @@ impl Kinematic<'_> {
         }
     }
 
-    /// What the legend says of points and ways.
+    /// Returns the legend rows of points and their paths.
     pub(super) fn point_rows(&self) -> Vec<(Swatch, String)> {
         let mut out = Vec::new();
         if !self.points.is_empty() {
@@ -56,7 +56,8 @@ impl Kinematic<'_> {
         of.collect()
     }
 
-    /// The points of interest; of output links that have none the free end of one with a single joint, else its joints but those of the frame.
+    /// Returns the points of interest. For an output link without any, returns its free end, or its joints except those
+    /// on the frame.
     pub(super) fn tips(&self) -> Vec<(LinkId, Vector)> {
         let moving = self.points.iter().filter(|p| !self.is_frame(p.link));
         let mut out: Vec<(LinkId, Vector)> = moving.map(|p| (p.link, p.place)).collect();

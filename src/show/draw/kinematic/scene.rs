@@ -1,4 +1,4 @@
-//! A kinematic scheme in space, for a program that turns it and moves it: what stands on which link, and the poses.
+//! A kinematic scheme in space, for a program that turns and moves it: shapes and symbols by link, and the poses.
 //!
 //! All lengths are pixels of the drawing it belongs to, from the point whose place on paper is its origin.
 
@@ -28,7 +28,7 @@ use serde_json::{Value, json};
 pub struct Scene {
     /// Right, up and towards the reader in the view of the drawing.
     view: [Vector; 3],
-    /// What a drag to the side turns about.
+    /// The axis of a drag to the side.
     upright: Vector,
     /// The place of the origin on the sheet.
     origin: Point,
@@ -54,7 +54,7 @@ pub struct Scene {
     swaps: Vec<Value>,
 }
 
-/// What a scene shows besides the mechanism.
+/// What a scene shows in addition to the mechanism.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// The motions, at least one, which may be of one pose.
@@ -113,7 +113,7 @@ impl Scene {
         self.room
     }
 
-    /// A motion, with the ways of its points as seen from the frame.
+    /// Adds a motion, with the paths of its points relative to the frame.
     fn add_move(&mut self, rest: &Kinematic<'_>, moved: &Moved<'_>, poses: &[Carried<'_>]) {
         let way = moved.way;
         let frame = rest.row(rest.subject.mechanism.frame());

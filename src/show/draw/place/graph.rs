@@ -1,5 +1,5 @@
-//! The graph whose layout a structural scheme needs: links are hyperedges over the joints. Where the mechanism as drawn has a mirror, so
-//! has its scheme.
+//! The graph of a structural scheme: links are hyperedges over the joints. If the drawn mechanism has a mirror
+//! symmetry, so has its scheme.
 
 use crate::svg::plane::{Point, cross, dot, mean, norm, sub, unit};
 
@@ -23,7 +23,7 @@ pub(in crate::draw) struct Net {
     pub(in crate::draw) edges: Vec<Vec<(usize, f64)>>,
 }
 
-/// Links with more joints or a shared pair of joints need a hub of their own.
+/// Returns the graph with a hub for each link that has more than two joints or shares a pair of joints.
 pub(in crate::draw) fn net(graph: &Graph) -> Net {
     let mut edges = vec![Vec::new(); graph.joints];
     let mut hub = Vec::new();
@@ -93,7 +93,7 @@ pub(in crate::draw) fn ring(of: &[usize], joints: &[Point]) -> Vec<usize> {
 pub(in crate::draw) struct Mirror(Vec<usize>);
 
 impl Mirror {
-    /// The reflection of y that carries the joints onto each other and links onto links, where there is one.
+    /// Returns the reflection of y that maps joints to joints and links to links, or `None` if there is none.
     pub(in crate::draw) fn find(graph: &Graph, net: &Net, joints: &[Point]) -> Option<Mirror> {
         let middle = mean(joints.iter().copied());
         let size = joints

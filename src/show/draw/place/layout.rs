@@ -1,4 +1,4 @@
-//! Where the joints of a structural scheme go.
+//! Layout of the joints of a structural scheme.
 //!
 //! Links are hyperedges over the joints. A layout starts from several places: the mechanism's own coordinates, Tutte's
 //! barycentric drawing with each contour as the outer face, and scattered points. It is relaxed by stress majorization, and
@@ -25,14 +25,14 @@ pub(in crate::draw) struct Layout {
 #[derive(Debug, Clone)]
 struct Candidate {
     cost: f64,
-    /// What the cost is multiplied with.
+    /// The factor of the cost.
     favour: f64,
     mirror: Option<Mirror>,
     joints: Vec<Point>,
 }
 
 impl Candidate {
-    /// A layout in its middle, or made as symmetric as its start; none where it cannot be judged.
+    /// Creates a centred layout, or one as symmetric as its start; returns `None` if its cost is not finite.
     fn new(
         crowding: &Crowding,
         mut at: Vec<Point>,
@@ -71,7 +71,7 @@ impl Candidate {
     }
 }
 
-/// The best candidates; the best symmetric ones have their chance, whatever they cost before they are polished.
+/// Returns the best candidates and the best symmetric ones, whatever these cost before they are polished.
 fn worth_polishing(mut candidates: Vec<Candidate>) -> Vec<Candidate> {
     candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let symmetric = candidates.iter().filter(|c| c.mirror.is_some());
@@ -192,7 +192,7 @@ fn hubs(graph: &Graph, net: &Net, joints: &[Point]) -> Vec<Point> {
     out
 }
 
-/// Lengths of the shortest paths between nodes; far where there is none.
+/// Returns the lengths of the shortest paths between nodes, or a large length if there is no path.
 fn distances(net: &Net) -> Vec<Vec<f64>> {
     let n = net.edges.len();
     let apart = 3.0 + (n as f64).sqrt();

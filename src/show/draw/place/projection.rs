@@ -21,7 +21,7 @@ use crate::svg::plane::{
 /// Joints nearer than this on paper, in pixels, are in one place.
 pub(in crate::draw) const ONE_PLACE: f64 = 1.5;
 
-/// What the axis of a joint means for a plane of motion.
+/// The meaning of a joint's axis for a plane of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Turn {
     /// It turns about the axis and does not slide along it.
@@ -109,7 +109,7 @@ pub(in crate::draw) struct Projection {
     pub(in crate::draw) view: View,
     /// Pixels in a unit of length.
     pub(in crate::draw) scale: f64,
-    /// What comes to the origin of the paper.
+    /// The point at the origin of the paper.
     pub(in crate::draw) middle: Vector,
 }
 
@@ -125,8 +125,8 @@ impl Projection {
     }
 }
 
-/// What has to be seen: the joints, room for some more points, and the axes that outputs turn about in the frame, whose circles
-/// should be no lines.
+/// Everything that must be visible: the joints, some more points, and the axes of output hinges in the frame, whose
+/// circles should not look like lines.
 pub(in crate::draw) struct ToBeSeen<'a> {
     pub(in crate::draw) places: &'a [JointInSpace],
     pub(in crate::draw) more: &'a [Vector],
@@ -217,8 +217,7 @@ fn edge_on(view: &View, axes: &[Vector]) -> f64 {
     narrow.sum()
 }
 
-/// How much larger than its room a drawing is, so that symbols of joints that are not in one place have room beside each
-/// other.
+/// Returns the magnification of a drawing that keeps symbols of joints at different places apart.
 fn room_for_symbols(on: &[Point]) -> f64 {
     const APART: f64 = 30.0;
     const MOST: f64 = 2.2;
@@ -234,8 +233,8 @@ fn room_for_symbols(on: &[Point]) -> f64 {
     (APART / least).min(MOST)
 }
 
-/// The common normal, in any direction, where all points lie in one plane and the mechanism moves in it; an axis of the
-/// coordinates where there is a choice.
+/// Returns the common normal if all points lie in one plane and the mechanism moves in it. Prefers an axis of the
+/// coordinates.
 fn planar(places: &[JointInSpace]) -> Option<Vector> {
     let size = extent(places);
     let first = places.first()?.point;
@@ -268,13 +267,14 @@ fn moves_across(places: &[JointInSpace], n: Vector) -> bool {
     lies_across(places, n) == Some(0)
 }
 
-/// Whether that is so of most hinges, and the others turn about axes across it: a screw's, say, or a shaft's.
+/// Returns true if most hinges turn about this direction, and the others about axes across it, such as a screw's or a
+/// shaft's.
 fn mostly_moves_across(places: &[JointInSpace], n: Vector) -> bool {
     let hinges = places.iter().filter(|p| p.turn == Turn::Hinge).count();
     lies_across(places, n).is_some_and(|other| 2 * other < hinges)
 }
 
-/// How many hinges turn about axes across a direction; none where an axis is aslant.
+/// Returns the number of hinges about axes across a direction, or `None` if an axis is oblique.
 fn lies_across(places: &[JointInSpace], n: Vector) -> Option<usize> {
     let mut other = 0;
     for p in places.iter().filter(|p| p.turn != Turn::Any) {

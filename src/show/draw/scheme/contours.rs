@@ -5,11 +5,11 @@ use crate::draw::sheet::Sheet;
 use crate::draw::sheet::shapes::{HALF, grid, outline, rounded};
 use crate::svg::plane::{Point, area, inside, to_segment};
 
-/// Half the width of the band that stands for a contour without an area.
+/// Half the width of the band of a contour without an area.
 const BAND: f64 = 4.0;
 
 impl Scheme<'_> {
-    /// What a contour goes round: its joints, and the bends of bars between them.
+    /// Returns the outline of a contour: its joints, and the bends of bars between them.
     pub(super) fn round(&self, c: usize) -> Vec<Point> {
         let of = &self.parts.graph.contours[c];
         let mut used = Vec::new();
@@ -38,7 +38,7 @@ impl Scheme<'_> {
         order
     }
 
-    /// Whether enough of a contour's area is left to see between the links and beside smaller contours.
+    /// Returns true if enough of a contour's area is visible between the links and next to smaller contours.
     pub(super) fn is_seen(&self, c: usize) -> bool {
         /// Square pixels.
         const ENOUGH: f64 = 150.0;
@@ -66,7 +66,7 @@ impl Scheme<'_> {
         free as f64 * cell > ENOUGH
     }
 
-    /// A contour without an area of its own, as a narrow band along it.
+    /// Returns a contour without an area as a narrow band along it.
     pub(super) fn band(&self, c: usize) -> String {
         let sides = outline(&self.round(c));
         sides.iter().map(|&(a, b)| rounded(&[a, b], BAND)).collect()

@@ -1,4 +1,4 @@
-//! Where the names of joints and links and the numbers of contours go.
+//! Placement of the names of joints and links and of the numbers of contours.
 
 use super::Scheme;
 use crate::draw::sheet::SMALL;
@@ -9,7 +9,7 @@ use crate::svg::plane::{Point, Rect, add, area, inside, mean, norm, scale, sub, 
 use crate::svg::text::{names, width};
 
 impl Scheme<'_> {
-    /// Where the ids of joints and links and the numbers of contours go, in this order.
+    /// Returns the places and texts of the ids of joints and links and of the numbers of contours, in this order.
     pub(super) fn place_labels(&self) -> Vec<(LabelPlace, String)> {
         let around = |i| {
             let side = 2.0 * self.radius(i);
@@ -88,7 +88,7 @@ impl Scheme<'_> {
         (0..self.parts.contours.len()).map(one).collect()
     }
 
-    /// The ids of joints, each to stand beside its joint.
+    /// Returns the ids of joints, to be placed next to their joints.
     fn joint_wishes(&self) -> Vec<(Wish, String)> {
         let joints = self.parts.joints.iter();
         let ids: Vec<&str> = joints

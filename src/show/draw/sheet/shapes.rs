@@ -106,7 +106,7 @@ pub(in crate::draw) fn hatch_with(corners: &[Point], half: f64, step: f64) -> St
     d
 }
 
-/// Where the line x + y = level runs within a union of polygons, as ranges of x - y.
+/// Returns the intersection of the line x + y = level with a union of polygons, as ranges of x - y.
 fn spans(area: &[Vec<Point>], level: f64) -> Vec<(f64, f64)> {
     let mut ranges: Vec<(f64, f64)> = Vec::new();
     for polygon in area {

@@ -39,7 +39,7 @@ fn driven_freedom(m: &Mechanism, state: StateId, joint: JointId) -> Option<Freed
     Some(pose.columns[column].freedom)
 }
 
-/// The arrow round a driving pair that turns, which is no circle: that is a second joint.
+/// Returns the arrow around a driving pair that turns. It is not a full circle, because that means a second joint.
 pub(in crate::draw) fn round(mark: &str, radius: f64) -> Vec<Shape> {
     const FROM: f64 = 0.25 * PI;
     const TO: f64 = 1.85 * PI;

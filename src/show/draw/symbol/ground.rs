@@ -52,7 +52,7 @@ impl Ground {
         self.half > PIVOT
     }
 
-    /// The line from the joint to the ground, where there is one.
+    /// Returns the line from the joint to the ground, or `None` for a rail.
     pub(in crate::draw) fn stem(&self) -> Option<(Point, Point)> {
         (!self.is_rail()).then_some((self.from, self.to))
     }
@@ -98,7 +98,7 @@ impl Ground {
 /// A place of the frame's joints.
 struct GroundSpot {
     at: Point,
-    /// Where the links that move go from here.
+    /// The directions of the moving links.
     dirs: Vec<Point>,
     /// The room of the symbols.
     room: Rect,
@@ -126,7 +126,8 @@ impl GroundSpot {
         (Ground::pivot(self.at, add(self.at, scale(dir, reach))), dir)
     }
 
-    /// The ground that is the least bad: for how far from upright it is, what it covers, and which links go its way.
+    /// Returns the ground with the least cost: how far it is from upright, what it covers, and the links in its
+    /// direction.
     fn best(&self, feet: &[Foot], others: &[Ground]) -> Option<Ground> {
         let tried = (0..16).map(|step| {
             let (ground, dir) = self.ground(step);

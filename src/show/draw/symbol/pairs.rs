@@ -1,4 +1,5 @@
-//! A joint type by itself: its symbol large, aslant and along its axis, with the freedoms at the axes of its frame.
+//! A picture of a joint type: its symbol large, seen obliquely and along its axis, with the freedoms at the axes of its
+//! frame.
 
 use crate::draw::place::projection::{self, View};
 use crate::draw::sheet::{Anchor, Caption, Drawing, Sheet, plan};

@@ -14,12 +14,12 @@ pub(in crate::draw) struct PaperPose {
 }
 
 impl PaperPose {
-    /// Of a joint seen from a side.
+    /// Creates the pose of a joint seen in a view.
     pub(in crate::draw) fn new(place: &JointInSpace, view: &View) -> PaperPose {
         PaperPose::of_axes([place.x, place.y, place.z], view)
     }
 
-    /// Of a frame with these axes.
+    /// Creates the pose of a frame with these axes.
     pub(in crate::draw) fn of_axes(axes: [Vector; 3], view: &View) -> PaperPose {
         PaperPose {
             axes: axes.map(|a| view.flat(a)),
@@ -27,7 +27,8 @@ impl PaperPose {
         }
     }
 
-    /// The place of a point of three numbers; of one of two it is beside an axis, or always the same.
+    /// Returns the position of a point of three numbers. A point of two numbers lies along an axis, or is fixed on
+    /// paper.
     fn at(&self, p: &[f64], along: Option<usize>) -> Point {
         match (p, along) {
             (&[x, y], Some(axis)) => {
@@ -52,18 +53,18 @@ pub(in crate::draw) struct Piece {
     class: String,
     /// In the frame of the joint; points of two numbers lie on paper, whatever the view.
     points: Vec<Vec<f64>>,
-    /// Of a ball, and of the circles on paper at the points of a hull.
+    /// The radius of a ball, or of the circles on paper at the points of a hull.
     #[serde(default)]
     radius: f64,
-    /// The axis that points of two numbers are along and beside; the piece is not seen where the axis is seen from its end.
+    /// The axis of points of two numbers. The piece is hidden if the axis is seen from its end.
     #[serde(default)]
     along: Option<usize>,
-    /// It is there where so much of the joint's axis z points at the reader.
+    /// The range of the share of the axis z towards the reader in which the piece is visible.
     #[serde(default = "always")]
     seen: [f64; 2],
 }
 
-/// What a piece is.
+/// The kind of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(in crate::draw) enum Form {
@@ -75,7 +76,7 @@ pub(in crate::draw) enum Form {
     Line,
     /// A polygon.
     Loop,
-    /// A ball round the only point.
+    /// A ball at the only point.
     Ball,
 }
 
@@ -83,7 +84,7 @@ fn always() -> [f64; 2] {
     [0.0, 2.0]
 }
 
-/// Where so much of an axis points at the reader, it is seen from its end.
+/// The share of an axis towards the reader from which it counts as seen from its end.
 const END_ON: f64 = 0.9;
 /// Faces smaller than this, in square pixels, are seen from the side.
 const EDGE: f64 = 0.05;
@@ -118,7 +119,7 @@ impl Piece {
         }
     }
 
-    /// It so many times its size; `mark` is added to the class.
+    /// Returns the piece scaled; `mark` is added to the class.
     pub(in crate::draw) fn sized(&self, mark: &str, size: f64) -> Piece {
         let points = self.points.iter();
         let points = points.map(|p| p.iter().map(|x| tidy(x * size)).collect());
@@ -130,7 +131,7 @@ impl Piece {
         }
     }
 
-    /// How it looks from a side; nothing where it is not seen.
+    /// Returns its shape in a pose, or `None` if it is hidden.
     pub(in crate::draw) fn shape(&self, pose: &PaperPose) -> Option<Shape> {
         let ahead = pose.toward[2].abs();
         let ended = self.along.is_some_and(|a| pose.toward[a].abs() >= END_ON);

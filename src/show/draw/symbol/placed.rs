@@ -1,4 +1,4 @@
-//! The symbol of a joint at its place: with the ring of a drive, within others that stand there, and in place of another.
+//! The symbol of a joint in a drawing, with its drive, its size among others at the same place, and swaps.
 
 use crate::draw::place::projection::{JointInSpace, ONE_PLACE, View};
 use crate::draw::sheet::{ROW, Shape, Sheet};
@@ -9,7 +9,7 @@ use crate::model::joint_type::JointType;
 use crate::model::mechanism::{Joint, JointId, JointOption};
 use crate::svg::plane::{Point, Rect, norm, sub};
 
-/// The symbol of a joint round the origin.
+/// The symbol of a joint, at the origin.
 pub(in crate::draw) struct Symbol {
     of: JointType,
     pose: PaperPose,
@@ -93,14 +93,14 @@ impl Symbol {
     }
 }
 
-/// A joint in place of another, so that a page can show any redesign in one drawing of the mechanism as it is.
+/// A joint that replaces another, so that a page can show any redesign in one drawing of the original mechanism.
 #[derive(Debug, Clone, Copy)]
 pub struct Swap<'a> {
     /// The place.
     pub joint: JointId,
-    /// What is put there.
+    /// The new joint.
     pub option: &'a JointOption,
-    /// Whether an unloading joint is put in series with it: a ring stands for that.
+    /// Whether an unloading joint is put in series with it. A ring shows it.
     pub unloading: bool,
 }
 

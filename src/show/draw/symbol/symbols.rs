@@ -7,7 +7,7 @@ use crate::svg::plane::{Rect, bounds};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// The pieces of each symbol from the back to the front, by joint type; and of the arrow beside a driven slide, by its axis.
+/// The pieces of each joint type's symbol, from back to front, and of the arrow of a driven slide by its axis.
 ///
 /// # Panics
 /// Never: a test draws all of them.
@@ -26,7 +26,7 @@ pub(in crate::draw) fn side_of_slide(joint: &JointType) -> Option<f64> {
     }
 }
 
-/// The symbol of a joint round the origin, so many times its usual size; `mark` is added to the classes.
+/// Returns the symbol of a joint at the origin, scaled by `size`; `mark` is added to the classes.
 pub(in crate::draw) fn symbol(
     joint: &JointType,
     pose: &PaperPose,
@@ -42,7 +42,7 @@ pub(in crate::draw) fn pieces(joint: &JointType) -> &'static [Piece] {
     &SYMBOLS[joint.name()]
 }
 
-/// The straight arrow beside a joint that slides along one of its axes, past the hatching of a rail.
+/// Returns the straight arrow of a joint that slides along one of its axes, outside the hatching of a rail.
 pub(in crate::draw) fn arrow(axis: usize) -> &'static [Piece] {
     &SYMBOLS[["drive x", "drive y", "drive z"][axis]]
 }

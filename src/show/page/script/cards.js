@@ -55,7 +55,7 @@ function cardOf(c) {
 
 let shown = [], given = 0;
 
-// What each filter leaves, given what it is set to.
+// The test of each filter for a card, given the filter's value.
 const number = (keeps) => (c, v) => keeps(c, Number(v));
 const FILTERS = {
   links: (c, v) => String(c.links) === v,
@@ -82,7 +82,7 @@ const FILTERS = {
   find: (c, v) => c.name.toLowerCase().includes(v) || c.id.includes(v) || (c.classics || '').includes(v),
 };
 
-/** What is asked, read once for all cards: of each filter that is set, its id and whether it keeps a card. */
+/** The filters in use, read once for all cards: each with its id and its test. */
 function wanted() {
   return Object.entries(FILTERS).flatMap(([id, keeps]) => {
     const input = byId(id), value = input.type === 'checkbox' ? (input.checked ? 'on' : '') : input.value.trim().toLowerCase();
@@ -90,7 +90,7 @@ function wanted() {
   });
 }
 
-/** Which filters are in the way where nothing is left: how many grippers there are without each. */
+/** The filters that exclude everything: the number of grippers without each. */
 function inTheWay(asked) {
   const words = (id) => byId(id).closest('label').firstChild.textContent.trim() || byId(id).closest('label').textContent.trim();
   const without = asked.flatMap(([id]) => {

@@ -78,7 +78,7 @@ function drawAxes(svg, sx, sy, x, y) {
 
 let point = () => [0, 0];
 
-/** The ring round the chosen variant. */
+/** The ring around the chosen variant. */
 function markPoint() {
   const ring = document.querySelector("#chart .ring");
   if (!ring) return;

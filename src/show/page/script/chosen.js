@@ -1,4 +1,4 @@
-// What is told of the chosen variant.
+// The text about the chosen variant.
 
 /** The list of changes, each with the symbol that is put in. */
 function changeList(changes) {
@@ -36,7 +36,7 @@ function ideaWords(i) {
   return `${inWords(i).replace(/^[^:]*: /, "")}; ${stands}`;
 }
 
-/** What the terminal says of an idea, or what it adds where it says nothing. */
+/** The terminal's explanation of an idea, or what it adds if there is none. */
 function whyList(i) {
   if (!byIdeas()) return null;
   const rows = found.why[i] && found.why[i].length ? found.why[i] : [["adds", found.adds[i] || "nothing"]];
@@ -84,7 +84,7 @@ function loadTable(i) {
   return table(`Loads of the joints, ${poses}${norm}`, heads, rows);
 }
 
-/** Words on the variant that are no table. */
+/** Remarks on the variant. */
 function remarks(i) {
   const out = [];
   const idle = found.idle_words[found.idle_word[i]];
@@ -112,7 +112,7 @@ function showAsItIs() {
   byId("chosen-more").replaceChildren();
 }
 
-/** Brings the pictures into sight, where they do not stand beside the table. */
+/** Scrolls the pictures into view if they are not next to the table. */
 function reveal() {
   if (matchMedia("(min-width: 64rem)").matches) return;
   const less = matchMedia("(prefers-reduced-motion: reduce)").matches;

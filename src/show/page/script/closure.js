@@ -3,7 +3,7 @@
 
 /** A radian counts as so many pixels. */
 const REACH = 60;
-/** Equations of joints weigh so much more than a pull. */
+/** The weight of equations of joints, relative to a pull. */
 const FIRM = 1e4;
 /** A joint that gapes more than this, in pixels, is open; one below the second is closed. */
 const [OPEN, SHUT] = [0.05, 1e-4];
@@ -36,7 +36,7 @@ function spinOf([x, y, z]) {
 /** Such places as a pose of a scene. */
 const poseOf = (links) => links.map(({ axes, at }) => [...spinOf(axes), ...at]);
 
-/** What each joint of a scene holds, by the rule of the program: slides go along axes of the joint's second link where turns come before them. */
+/** The equations of each joint of a scene: slides go along axes of the joint's second link if turns come before them. */
 function holdsOf(scene) {
   return scene.joints.filter((j) => j.pair && j.links[0] !== j.links[1]).map((j) => {
     const [a, b] = j.pair.swapped ? [j.links[1], j.links[0]] : j.links;
@@ -188,7 +188,7 @@ function pullable(scene, poses) {
   return {
     pose: () => poseOf(links),
     gap: () => gap(equations(links)),
-    /** Pulls a point of a link, given at rest, to where it is seen so far to the right and up; false where it does not go. */
+    /** Pulls a point of a link, given at rest, to a position right and up in the view; false if it does not move. */
     pull(link, point, view, target) {
       const before = links;
       let at = links;

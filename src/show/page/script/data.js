@@ -1,13 +1,13 @@
-// What the page knows: columns of numbers by variant, and words made of them on demand.
+// The data of the page: columns of numbers by variant, and words made of them on demand.
 
 const page = JSON.parse(document.getElementById("data").textContent);
 /** The list that is shown: ideas, each by its first variant, or single variants. */
 let found = page.ideas || page.search;
 let [work, total, columns] = [null, 0, []];
-/** What the text filter has looked at. */
+/** The texts that the text filter searches. */
 let haystacks = [];
 const byIdeas = () => found === page.ideas;
-/** What one of the list is called. */
+/** The name of an item of the list. */
 const noun = () => (byIdeas() ? "Idea" : "Variant");
 
 /** Three significant digits, never in the form 1e+21 for what a reader would write out. */
@@ -30,7 +30,7 @@ function percent(x) {
   return `${y < 1000 ? y.toFixed(1) : grouped(Math.round(y))}\u00a0%`;
 }
 
-/** The columns of numbers: how each is told, which way is better, and whether decades suit it. */
+/** The columns of numbers: format, better direction, and whether a log scale suits. */
 function makeColumns() {
   const out = [];
   const add = (key, title, words, values, more) => {
@@ -111,7 +111,7 @@ function changesOf(i) {
 /** The changes in a line. */
 const changeLine = (i) => changesInWords(changesOf(i).map((c) => [c.id, c.to])) || "none: the original mechanism";
 
-/** What the text filter looks at. */
+/** The text of a variant that the text filter searches. */
 function haystack(i) {
   if (haystacks[i] === undefined) {
     const words = changesOf(i).map((c) => `${c.id}:${c.to} ${c.id}: ${c.from} -> ${c.to}`);

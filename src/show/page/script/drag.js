@@ -21,7 +21,7 @@ function placesOf(scene) {
   return of;
 }
 
-/** The segments that links are taken at: their outlines, and the place of one whose joints are all in one. */
+/** The segments by which links are dragged: their outlines, or the point of a link whose joints are all at one place. */
 function segmentsOf(scene) {
   const wires = scene.wires.filter((w) => w.of === null && !w.turned && /bone|plate/.test(w.class));
   const outlines = wires.flatMap(({ link, form, points }) => {
@@ -32,7 +32,7 @@ function segmentsOf(scene) {
   return [...outlines, ...blocks].filter((s) => s.link !== scene.frame);
 }
 
-/** The link that is seen at a place, and the point of it at rest; null where there is none. */
+/** The link at a place of the picture, and its point at rest; null if there is none. */
 function linkAt(place) {
   const { scene, sight } = player;
   const pose = poseNow();
@@ -49,7 +49,7 @@ function linkAt(place) {
   return best && best.off < GRASP ? best : null;
 }
 
-/** Takes a link that is pointed at: what moves it from then on; null where there is none, or nothing to be moved. */
+/** Starts a drag of the link under the pointer: returns the function that moves it, or null if there is none. */
 function grasp(turn, event) {
   if (player.stress !== null) return null;
   const found = linkAt(pointed(turn, event));

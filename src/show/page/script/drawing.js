@@ -1,6 +1,6 @@
-// A still drawing of the mechanism as it is, with the symbols of a variant put in.
+// A still drawing of the original mechanism, with the symbols of a variant.
 
-/** What a change puts at a joint of the scene of a state, or undefined. */
+/** The swap of a change in the scene of a state, or undefined. */
 function swapOf(state, { variable, choice, joint }) {
   const n = page.swaps[state].findIndex((r) => r[0] === variable && r[1] === choice && r[2] === joint);
   return page.scenes[state]?.swaps[n];
@@ -21,7 +21,7 @@ function reclass(place, { classes, unloading }) {
 
 const childNamed = (node, name) => [...node.children].find((c) => c.localName === name);
 
-/** Tints the contours by what is left redundant in them; without tint where that is not known. */
+/** Tints the contours by their redundant constraints; without tint if these are unknown. */
 function tint(svg, state, i) {
   const { contours } = page.states[state];
   const left = state === 0 ? (found.redundant[i] === 0 ? contours.map(() => 0) : found.contours[i]) : null;

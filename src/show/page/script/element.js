@@ -1,7 +1,7 @@
 "use strict";
 // Elements of a page, of HTML and of SVG.
 
-/** An element; attributes that are null are left out, text is never read as markup. */
+/** An element; null attributes are omitted, and text is never parsed as markup. */
 function element(name, attributes, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes || {})) {

@@ -5,7 +5,7 @@ const view = {
   order: [],
   /** The column sorted by: a key, "position" or "list". */
   sort: { key: "position", down: false },
-  /** The variant chosen, or null for the mechanism as it is. */
+  /** The chosen variant, or null for the original mechanism. */
   chosen: null,
   /** The place in the order that the keyboard is at. */
   active: 0,
@@ -17,7 +17,7 @@ function limit(id) {
   return value === "" || Number.isNaN(Number(value)) ? null : Number(value);
 }
 
-/** What is asked for: each part with the field it is typed in, and what passes it. */
+/** The criteria of the filter: each with its field, and a test. */
 function criteria() {
   const out = [];
   for (const word of byId("find").value.replaceAll("→", "->").split(/\s+/).filter(Boolean)) {
@@ -49,7 +49,7 @@ function drop(criterion) {
   refresh();
 }
 
-/** What a word such as 5-1:cylindrical asks of which joint, where it does. */
+/** The joint and type of a word such as 5-1:cylindrical, or null. */
 function wish(word) {
   const at = word.lastIndexOf(":");
   if (at < 1) return null;

@@ -26,7 +26,7 @@ function round([x, y], r, s) {
 /** How the tips move as the drive closes, the fastest by the longest arrow. */
 function arrows(card, tips) {
   const told = ['a', 'b', 'c'].map((jaw) => [card[`tip_${jaw}_dx`], card[`tip_${jaw}_dy`]]).filter((v) => v[0] !== null).map(flip);
-  // Of sides in planes of their own the second is drawn opposite the first.
+  // Of sides in different planes, the second is drawn opposite the first.
   const moves = card.drawing.folded ? [told[0], [told[0][0], -told[0][1]]] : told;
   const fastest = Math.max(...moves.map((v) => Math.hypot(...v)), 1e-9);
   return moves.flatMap((move, n) => {
@@ -47,7 +47,7 @@ function gripper(card, title, changed, elsewhere) {
   // The same sight however it moves.
   const all = [...d.pins, ...(d.tips || []), ...pitchBounds(d)].map(flip);
   const low = [0, 1].map((k) => Math.min(...all.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...all.map((p) => p[k])));
-  // Labels stand beside their pins, those on the right to the left of them.
+  // Labels are next to their pins; those on the right are to the left of them.
   const margin = [changed ? 40 : 20, 20], size = [0, 1].map((k) => high[k] - low[k] + 2 * margin[k]);
   const box = [low[0] - margin[0], low[1] - margin[1], size[0], size[1]], centre = box[0] + size[0] / 2;
   const out = [svgElement('title', {}, title)];

@@ -1,8 +1,8 @@
-// What a reader may take along: pictures as SVG or PNG files, tables as CSV on the clipboard.
+// What a reader can save: pictures as SVG or PNG files, tables as CSV on the clipboard.
 
 /** Pixels of a saved picture for each of the drawing's. */
 const FINE = 2;
-/** What of a look is written into a picture whose rules stand in the page. */
+/** The style properties written into a picture whose rules are in the page. */
 const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray", "font-size", "font-family", "font-weight", "text-anchor"];
 
 /** A whole picture in its own size: what the stage shows a part of, too. */
@@ -16,7 +16,7 @@ function wholeOf(svg) {
   return whole;
 }
 
-/** Runs `use` with a whole picture that stands in the page, where it is not seen, so that it has its look. */
+/** Runs `use` with a whole picture in a hidden part of the page, so that styles apply to it. */
 function staged(svg, use) {
   const room = element("div", { class: "offstage", "aria-hidden": "true" });
   const whole = wholeOf(svg);
@@ -29,7 +29,7 @@ function staged(svg, use) {
   }
 }
 
-/** A picture as a file of its own: its rules are in it, or each look is written where it is had. */
+/** A picture as a separate file: with its rules, or with each style property written where it applies. */
 function saveSvg(svg, name) {
   const text = staged(svg, (whole) => {
     if (!whole.querySelector("style")) {
@@ -43,7 +43,7 @@ function saveSvg(svg, name) {
   saveFile(`${name}.svg`, new Blob([text], { type: "image/svg+xml" }));
 }
 
-/** The outline of an element, and where its text stands. */
+/** The outline of an element, and the position of its text. */
 function outline(part) {
   const n = (key) => Number(part.getAttribute(key) ?? 0);
   const way = new Path2D(part.localName === "path" ? part.getAttribute("d") : undefined);
@@ -114,7 +114,7 @@ function keepButtons(svgOf, nameOf, whole) {
 /** Rows of cells as CSV, as RFC 4180 has it. */
 const csv = (rows) => rows.map((cells) => cells.map((c) => (/[",\r\n]/.test(c) ? `"${c.replaceAll('"', '""')}"` : c)).join(",")).join("\r\n") + "\r\n";
 const cellText = (cell) => cell.innerText.replace(/\s+/g, " ").trim();
-/** The rows of a table as it stands. */
+/** The rows of a table as texts. */
 const rowsOf = (made) => [...made.rows].map((row) => [...row.cells].map(cellText));
 
 /** Puts text on the clipboard; by the old way where a browser keeps the new one from files. */

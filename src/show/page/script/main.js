@@ -26,7 +26,7 @@ function listenToFilters() {
   form.addEventListener("submit", (event) => event.preventDefault());
 }
 
-/** Escape clears a filter that is typed in, else goes back to the mechanism as it is. */
+/** Escape clears a filter with text, or else returns to the original mechanism. */
 function listenToEscape() {
   byId("explorer").addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;

@@ -1,7 +1,7 @@
 // How a gripper moves: its pins from open to closed, by Newton's method from pose to pose.
 const STEPS = 24;
 
-/** Where a drawn point of a link is in a pose: three numbers for each link, its shift and its turn about the origin. */
+/** The position of a drawn point of a link in a pose: three numbers for each link, its shift and its turn about the origin. */
 function placed(pose, link, [x, y]) {
   const [dx, dy, t] = pose.slice(3 * link, 3 * link + 3);
   return [dx + x * Math.cos(t) - y * Math.sin(t), dy + x * Math.sin(t) + y * Math.cos(t)];
@@ -27,7 +27,7 @@ function turnedBy(pose, link, [x, y]) {
   return [x * Math.cos(t) - y * Math.sin(t), x * Math.sin(t) + y * Math.cos(t)];
 }
 
-/** What holds a pose together, each with its slopes, the last number what it misses: joints fit, and the drive is where it is asked. */
+/** The equations of a pose, each with its slopes and, as the last number, its error: joints fit, and the drive is at its position. */
 function conditions(d, pose, drive) {
   const size = 3 * d.links.length, out = [];
   const row = (missed, of) => {
@@ -52,7 +52,7 @@ function conditions(d, pose, drive) {
       for (const u of [[1, 0], [0, 1]]) row((p[0] - q[0]) * u[0] + (p[1] - q[1]) * u[1], [...slopes(pose, a, p, u, 1), ...slopes(pose, b, q, u, -1)]);
       return;
     }
-    // Of links that other slides join already it is known that they do not turn against each other: flat faces.
+    // Links joined by other slides do not turn relative to each other.
     if (kind === 'slide' && together[a] !== together[b]) {
       row(pose[3 * b + 2] - pose[3 * a + 2], [[3 * b + 2, 1], [3 * a + 2, -1]]);
       together = together.map((of) => (of === together[b] ? together[a] : of));
@@ -67,7 +67,7 @@ function conditions(d, pose, drive) {
   return out;
 }
 
-/** The pose near another with the drive elsewhere; null where there is none. */
+/** The pose near another with the drive elsewhere; null if there is none. */
 function poseAt(d, near, drive) {
   let pose = near.slice();
   for (let round = 0; round < 20; round += 1) {
@@ -87,7 +87,7 @@ function frameAt(d, pose) {
   return { pose, pins: d.pins.map((pin, i) => placed(pose, block(d.ends[i], i), pin)), tips: d.tips.map((tip, n) => placed(pose, d.jaws[n], tip)) };
 }
 
-/** How far the tips are apart, along the lines on which they are drawn from their middle; less than nothing where they have passed. */
+/** The distance of the tips along the lines from their middle; negative if they have passed. */
 function opening(d, tips) {
   const middle = (all) => [0, 1].map((k) => all.reduce((sum, t) => sum + t[k], 0) / all.length);
   const [from, to] = [middle(d.tips), middle(tips)];

@@ -32,7 +32,7 @@ function pitchBounds(d) {
   }));
 }
 
-/** Where the racks are that a link carries. */
+/** The positions of the racks on a link. */
 function rackPoints(d, pose, link) {
   const own = d.gears.filter((g) => g.links.some((l, k) => l === link && d.kinds[g.joints[k]] === 'slide'));
   return own.map((g) => flip(placed(pose, link, g.pitch)));

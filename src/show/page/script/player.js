@@ -1,5 +1,5 @@
-// The player: one slider, one view and one choice of motion or self-stress for all pictures of a mechanism in space. Where it is
-// looked from, and how it is turned, is up to the page: `sightNow`, `isAtHome` and `goHome` are of it.
+// The player: one slider, one view and one choice of motion or self-stress for all pictures of a mechanism in space.
+// The page provides the view: `sightNow`, `isAtHome` and `goHome`.
 
 const RATE = 30;
 
@@ -16,7 +16,7 @@ const player = {
   side: 0,
   tilt: 0,
   sight: null,
-  /** What is dragged and where its links are; nothing on the way of the motion. */
+  /** The dragged link and the pose of all links; null on the motion. */
   body: null,
   pulled: null,
   /** Whether the next click is to trace a point, and the points. */
@@ -26,7 +26,7 @@ const player = {
 const knob = Object.fromEntries(["play", "range", "again", "loop", "shown", "home", "say", "trace", "untrace"].map((part) => [part, document.querySelector(`[data-part="${part}"]`)]));
 const poses = () => player.scene.moves[player.motion].poses;
 
-/** Where the links are. */
+/** The pose of the links. */
 const poseNow = () => (player.stress === null ? player.pulled ?? poses()[player.now] : null);
 
 function drawScreens() {
@@ -57,7 +57,7 @@ function stop() {
   knob.play.textContent = "Play";
 }
 
-/** The next picture: round again, or back from the end; none at the end where it is not to be repeated. */
+/** The next picture: around again, or back from the end; null at the end if the motion is not repeated. */
 function next() {
   const round = player.scene.moves[player.motion].closed;
   const last = player.forward ? poses().length - 1 : 0;

@@ -21,7 +21,7 @@ function alone(picture) {
   return new XMLSerializer().serializeToString(own);
 }
 
-/** Links to the mechanism's file and to its drawing as it stands. */
+/** Links to the mechanism's file and to its present drawing. */
 function savedFiles(c, figure) {
   const svg = () => alone(figure.querySelector('svg'));
   return element('p', { class: 'saved' }, 'Save ',

@@ -1,7 +1,7 @@
-// A mechanism in space as SVG elements: what stands on which link, carried by a pose and seen from a side. The program that
-// writes the page draws the first view in the same way.
+// A mechanism in space as SVG elements: shapes and symbols on links, carried by a pose and seen in a view. The program
+// that writes the page draws the first view in the same way.
 
-/** Where so much of an axis points at the reader, it is seen from its end. */
+/** The share of an axis towards the reader from which it counts as seen from its end. */
 const END_ON = 0.9;
 
 const plus = (a, b) => a.map((x, i) => x + b[i]);
@@ -34,7 +34,7 @@ function upperSide(along) {
   return -x > 1e-9 ? [-y, x] : [y, -x];
 }
 
-/** A piece of a symbol, its corners on paper; null where it is not seen. */
+/** A piece of a symbol with its corners on paper; null if it is hidden. */
 function shape(part, points, at) {
   if (part.form === "ball") return svgElement("circle", { class: part.class, cx: at[0] + points[0][0], cy: at[1] + points[0][1], r: part.radius });
   if (part.form === "face" && turning(points) > -0.05) return null;
@@ -90,7 +90,7 @@ function axesOf(scene, view, from) {
   });
 }
 
-/** Where a pose takes a point of a link, and a direction: by link a rotation vector and a shift, or nothing where it rests. */
+/** The image of a point or a direction of a link in a pose: by link a rotation vector and a shift, or nothing if it rests. */
 const carried = (pose, link, p) => (pose && pose[link].length ? plus(spun(p, pose[link].slice(0, 3)), pose[link].slice(3)) : p);
 const turned = (pose, link, v) => (pose && pose[link].length ? spun(v, pose[link].slice(0, 3)) : v);
 

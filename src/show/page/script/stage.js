@@ -1,4 +1,4 @@
-// The stage: the mechanism as built, and beside it the variant that is chosen, in motion or as still drawings.
+// The stage: the original mechanism, and next to it the chosen variant, in motion or as still drawings.
 
 const stage = { state: 0, kind: "space" };
 /** The pictures of each state in space, as the page came with them. */
@@ -15,7 +15,7 @@ function pictureFor(state, kind) {
   return original.cloneNode(true);
 }
 
-/** What of the sheet the pictures show: the scheme alone, without title and legend, which stand beside it here; the axes go along. */
+/** The part of the sheet that the pictures show: the scheme and the axes, without title and legend. */
 function roomOf(scene) {
   const [left, top, right, bottom] = scene.room;
   const width = Math.max(right - left + 2 * ROUND, WIDE);
@@ -36,7 +36,7 @@ function crop(svg, scene) {
 /** W and σ in a few words. */
 const inShort = ({ mobility, redundant }) => `σ = ${redundant}, W = ${mobility}`;
 
-/** What stands at the joints of a scene instead, by joint. */
+/** The swaps at the joints of a scene, by joint. */
 function swapsOf(state, changes) {
   const swaps = changes.map((c) => swapOf(state, c)).filter(Boolean);
   return new Map(swaps.map((swap) => [swap.joint, swap]));
@@ -49,7 +49,7 @@ function setPicture(id, svg, words) {
   pane.querySelector("figcaption > span").textContent = words;
 }
 
-/** Draws a variant beside the mechanism as built; that alone for null. */
+/** Draws a variant next to the original mechanism; only the original for null. */
 function draw(i) {
   const { state, kind } = stage;
   const scene = page.scenes[state];

@@ -36,7 +36,7 @@ function figuresOf(c) {
 
 let kept = null;
 
-/** Figures of a gripper, beside those of the one that is kept. */
+/** Figures of a gripper, next to those of the one kept for comparison. */
 function figureTable(c) {
   const own = figuresOf(c);
   if (!kept || kept === c) return element('dl', {}, ...own.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
@@ -46,7 +46,7 @@ function figureTable(c) {
   return element('div', { class: 'wide beside' }, element('table', {}, element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...rows)));
 }
 
-/** Keeps a gripper beside those that are chosen next, or lets it go. */
+/** A button that keeps a gripper for comparison, or releases it. */
 const keeping = (c, anew) => button(kept === c ? 'Let it go' : 'Keep to compare', () => {
   kept = kept === c ? null : c;
   anew();
@@ -105,7 +105,7 @@ function ideaTable(c, pick) {
   return element('div', { class: 'wide ideas' }, element('table', {}, element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...rows)));
 }
 
-/** What the dialog says of a gripper. */
+/** The dialog about a gripper. */
 function tell(c) {
   const dialog = byId('chosen');
   const help = (words) => element('p', { class: 'help' }, words);

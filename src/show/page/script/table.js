@@ -5,7 +5,7 @@ const ROWS = 25;
 const pages = () => Math.max(1, Math.ceil(view.order.length / ROWS));
 const pageNumber = () => Math.floor(view.active / ROWS);
 
-/** How a column looks; what only some need is left out where there is little room. */
+/** The classes of a column; less important ones are hidden if there is little space. */
 const classOf = (key, numeric) => `${numeric ? "n" : ""}${["position", "list", "cost"].includes(key) ? "" : " more"}`;
 
 function drawHead() {

@@ -57,7 +57,7 @@ function goHome() {
   look();
 }
 
-/** Where a pane's picture is pointed at, in the coordinates of the drawing. */
+/** The position of the pointer in a picture, in the coordinates of the drawing. */
 function pointed(turn, event) {
   const { left, top, width, height } = turn.querySelector("svg").getBoundingClientRect();
   const room = roomOf(player.scene);

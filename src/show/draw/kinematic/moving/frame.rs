@@ -13,16 +13,16 @@ use crate::svg::plane::{Point, polyline};
 
 /// The length of a flag, in pixels.
 const FLAG: f64 = 26.0;
-/// What moves by less than this, in pixels, is not seen to.
+/// A displacement below this, in pixels, is not visible.
 const STILL: f64 = 2.0;
 /// What turns by less than this, in radians, is not seen to.
 const UPRIGHT: f64 = 0.05;
 
 /// One picture.
 pub(in crate::draw::kinematic) struct MovingPicture {
-    /// Where the points of interest are.
+    /// The points of interest.
     pub(in crate::draw::kinematic) points: Vec<Point>,
-    /// Where each joint stands, with its frame.
+    /// The joints with their frames.
     pub(in crate::draw::kinematic) places: Vec<JointInSpace>,
     pub(in crate::draw::kinematic) at: Vec<Point>,
     /// The shape of each link but the frame.
@@ -135,7 +135,7 @@ impl Kinematic<'_> {
         Body::new(&flat).bowed(self.bows[row])
     }
 
-    /// What is seen in a pose; at that of the file where none is given.
+    /// Returns the picture of a pose, or of the pose of the file.
     pub(in crate::draw::kinematic) fn picture(
         &self,
         pose: Option<&Carried<'_>>,

@@ -1,4 +1,4 @@
-//! What a pose of the motion carries where, what slides along what, and how far.
+//! Links and joints carried by a pose, and how far joints slide.
 
 use crate::draw::kinematic::Kinematic;
 use crate::draw::place::projection::{JointInSpace, Vector, dot, scale as times, sub as sub3};
@@ -8,7 +8,7 @@ use crate::model::joint_type::Freedom;
 use crate::model::mechanism::LinkId;
 use crate::motion::pose::Pose;
 
-/// Where a link has carried what is fixed to it.
+/// The displacement of the links in a pose.
 pub(in crate::draw::kinematic) struct Carried<'p> {
     pub(in crate::draw::kinematic) pose: &'p Pose,
     pub(in crate::draw::kinematic) links: &'p [RigidMotion],

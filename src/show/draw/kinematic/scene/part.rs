@@ -1,4 +1,4 @@
-//! What a program that turns and moves a scene has of the ground, and of what joints leave free and couple.
+//! The grounds, joint freedoms and couplings of a scene.
 
 use crate::draw::kinematic::Kinematic;
 use crate::draw::sheet::Shape;
@@ -38,8 +38,8 @@ impl Kinematic<'_> {
         })
     }
 
-    /// Returns a coupling between joints of a scene, in radians and pixels: factor by factor, the changes of the two freedoms add up to 0;
-    /// none where one of them is not drawn.
+    /// Returns a coupling between joints of a scene, in radians and pixels: the changes of the two freedoms times their
+    /// factors add up to 0. Returns `None` if a joint is not drawn.
     pub(in crate::draw::kinematic) fn tie(
         &self,
         coupling: &Coupling,

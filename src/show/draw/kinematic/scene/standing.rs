@@ -1,4 +1,4 @@
-//! What stands on the links of a scheme in space, and what a redesign puts there.
+//! The symbols and shapes on the links of a scene, and the symbols of redesigns.
 
 use crate::draw::kinematic::scene::part::below;
 use crate::draw::kinematic::scene::{Scene, fine, pixels};
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 const HALF_GUIDE: f64 = 34.0;
 
 impl Kinematic<'_> {
-    /// A scene with all that stands on the links.
+    /// Returns a scene with everything that is fixed to links.
     pub(super) fn scene(&self) -> Scene {
         let mut out = self.bare_scene();
         self.add_links(&mut out);
@@ -189,7 +189,7 @@ impl Kinematic<'_> {
         Some((i, symbol, place))
     }
 
-    /// What each swap puts into a scene whose joints begin with the points of interest; room is made for all of them.
+    /// Returns the symbols of swaps in a scene whose joints start with the points of interest, and makes room for them.
     pub(in crate::draw::kinematic) fn swap_in(
         &mut self,
         scene: &mut Scene,
@@ -217,7 +217,7 @@ impl Kinematic<'_> {
     }
 }
 
-/// What goes up in all views: z, or what goes up on paper where z is not upright in this one.
+/// Returns the upright axis of all views: z, or the upward direction on paper if z is not upright in this view.
 fn upright(view: &View) -> Vector {
     let level = dot(view.right, Z).abs() < 1e-6 && norm(cross(view.toward, Z)) > 1e-3;
     let upside = dot(view.up, Z) < 0.0;

@@ -34,7 +34,7 @@ struct CloseJoints<'a> {
 }
 
 impl CloseJoints<'_> {
-    /// Where a joint is shown instead, if it has to be moved.
+    /// Returns the place at which a joint is shown, or `None` if it is not moved.
     fn moved(&self, i: usize) -> Option<Vector> {
         let (old, size) = (&self.old, self.size);
         let near = |a: Vector, b: Vector| norm(sub(a, b)) <= 1e-6 * size;

@@ -3,12 +3,12 @@
 use crate::geom::vector::{Vector, X, Y, Z, cross, dot, length as norm, scale, sub};
 use crate::svg::plane::Point;
 
-/// From where a kinematic scheme is looked at, as far as that is asked for; the rest is chosen.
+/// The requested direction of view of a kinematic scheme. The program chooses the rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sight {
     /// The direction from the mechanism to the reader, of any length but zero.
     pub toward: Option<Vector>,
-    /// What goes up on paper, as far as it is not the direction looked in; z where it is not stated.
+    /// The upward direction on paper, as far as it is across the direction of view; z by default.
     pub up: Option<Vector>,
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct View {
     pub(crate) up: Vector,
     /// Towards the reader.
     pub(crate) toward: Vector,
-    /// What it is called.
+    /// Its name.
     pub(crate) name: &'static str,
     /// Along an axis of the coordinates.
     pub(super) axis: bool,
