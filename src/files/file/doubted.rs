@@ -1,9 +1,8 @@
 //! Doubtful values of a file: ratios and pitches that are written as decimals and are nearly fractions, and directions of options
 //! that are not given and default to the joint's own, where they have another meaning.
 
-use crate::file::lint::Found;
 use crate::file::locate::DocumentPath;
-use crate::file::problem::{WarningKind, first_of};
+use crate::file::problem::{Found, WarningKind, first_of};
 use crate::file::schema::{JointEntry, MechanismFile, OptionTable};
 use crate::format::significant;
 use crate::geom::expr::Expr;

@@ -1,14 +1,13 @@
 //! Changes to the text of a mechanism file. Everything else stays unchanged, including comments and digits.
 
+pub mod change;
 mod differences;
 mod references;
 mod value;
 
-pub use crate::file::edit::differences::differences;
-use serde::Deserialize;
+pub use change::{Edit, EditError, Thing};
+pub use differences::differences;
 use serde_json::Value;
-use std::fmt;
-use thiserror::Error;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 
 /// Returns the text of a file after some changes, one after another.
@@ -158,105 +157,4 @@ fn remove(document: &mut DocumentMut, items: &[(Thing, String)]) -> Result<(), E
         }
     }
     Ok(())
-}
-
-/// An item of a file that has an id.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Thing {
-    /// A rigid body.
-    Link,
-    /// A joint.
-    Joint,
-    /// A point of interest.
-    Point,
-}
-
-impl Thing {
-    /// Returns the name of its tables.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Thing::Link => "link",
-            Thing::Joint => "joint",
-            Thing::Point => "point",
-        }
-    }
-}
-
-impl fmt::Display for Thing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
-    }
-}
-
-/// A change.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Edit {
-    /// Another text altogether.
-    Text {
-        /// All of it.
-        text: String,
-    },
-    /// A key of an item gets a value; null takes it away.
-    Set {
-        /// What kind of item.
-        what: Thing,
-        /// Which.
-        id: String,
-        /// The key.
-        key: String,
-        /// The value.
-        value: Value,
-    },
-    /// A key of the file itself, or of a table in it: `["search", "options"]`.
-    Put {
-        /// The keys that lead to it.
-        path: Vec<String>,
-        /// The value; null takes it away.
-        value: Value,
-    },
-    /// An item more, after the last of its kind.
-    Add {
-        /// What kind of item.
-        what: Thing,
-        /// Its keys.
-        entry: serde_json::Map<String, Value>,
-    },
-    /// Another id, wherever it is named.
-    Rename {
-        /// What kind of item.
-        what: Thing,
-        /// Which.
-        id: String,
-        /// Its new name.
-        to: String,
-    },
-    /// Items go, with what names them: joints of a link, pairs, couplings and contours of a joint.
-    Remove {
-        /// The items.
-        items: Vec<(Thing, String)>,
-    },
-}
-
-/// Why a change cannot be made.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[allow(
-    missing_docs,
-    reason = "the wording of each variant says what its fields are"
-)]
-pub enum EditError {
-    #[error("the text is not valid TOML ({why}); fix it or undo")]
-    NoToml { why: String },
-    #[error("the file has no {what} \"{id}\" any more")]
-    Gone { what: Thing, id: String },
-    #[error("{what} \"{id}\" already exists; choose another name")]
-    Taken { what: Thing, id: String },
-    #[error("{what} cannot be written to a file: {why}")]
-    NoValue { what: String, why: &'static str },
-    #[error(
-        "{what} is written as a list of tables within brackets; write each as a separate [[{what}]] to change it here"
-    )]
-    Inline { what: Thing },
 }

@@ -4,7 +4,7 @@ use crate::closure::contour::{Contour, contour_basis};
 use crate::file::doubted::{doubted, doubts, guessed};
 use crate::file::locate::DocumentPath;
 use crate::file::problem::ImportError;
-use crate::file::problem::{WarningKind, Warnings, first_of};
+use crate::file::problem::{Found, WarningKind, Warnings, first_of};
 use crate::file::read::build;
 use crate::file::read::workload::workload_tables;
 use crate::file::schema::{LinkEntry, MechanismFile, OptionEntry, Unloading};
@@ -58,9 +58,6 @@ pub fn check(name: &str, bytes: &[u8]) -> Result<Checked, ImportError> {
         })
     })
 }
-
-/// The warnings found, each with the path of the item it concerns.
-pub(crate) type Found = Vec<(DocumentPath, WarningKind)>;
 
 fn find(file: &MechanismFile, m: &Mechanism) -> Found {
     let mut out = Found::new();

@@ -1,7 +1,6 @@
 //! Problems of a file, in messages that name the item and the remedy.
 
 use crate::file::locate::{Document, DocumentPath};
-use crate::file::text::is_json;
 use crate::format::did_you_mean;
 use crate::model::joint_type::JointType;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -297,3 +296,13 @@ impl Warnings {
         self.warnings.iter().map(one).join("\n")
     }
 }
+
+/// Returns true if a file of this name is JSON.
+pub(crate) fn is_json(name: &str) -> bool {
+    std::path::Path::new(name)
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("json"))
+}
+
+/// The warnings found, each with the path of the item it concerns.
+pub(crate) type Found = Vec<(DocumentPath, WarningKind)>;

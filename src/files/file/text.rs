@@ -1,7 +1,7 @@
 //! Reading a mechanism from text. Control characters are not allowed in names, because they could control a terminal or break a
 //! table.
 
-use crate::file::problem::{ImportError, ProblemKind};
+use crate::file::problem::{ImportError, ProblemKind, is_json};
 use crate::file::read::build;
 use crate::file::schema::MechanismFile;
 use crate::file::shape::wrong_shapes;
@@ -105,13 +105,6 @@ fn values(text: &str, json: bool) -> Option<serde_json::Value> {
     } else {
         toml::from_str(text).ok()
     }
-}
-
-/// Returns true if a file of this name is JSON.
-pub(crate) fn is_json(name: &str) -> bool {
-    std::path::Path::new(name)
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("json"))
 }
 
 /// A message about a syntax error, and its place in the text.

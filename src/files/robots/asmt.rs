@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::length;
-use crate::robots::cad::Holds;
+use crate::robots::cad::holds::Holds;
 use crate::robots::cad::{Assembly, Connection, NO_LIMITS};
 use crate::robots::description::{Robot, Unit};
 use crate::robots::warning::{Options, Reader};

@@ -3,10 +3,8 @@
 //! While the disc swings from one groove to the next, the electromagnet first holds the follower lifted. It is released
 //! at the start of the push. Then the spring presses the follower on the cam, and does the work of the push.
 
-use crate::drive::driving::Design;
 use crate::drive::programme::{Event, Run};
 use crate::drive::torsion::CamSpring;
-use crate::model;
 use serde::{Serialize, Serializer};
 
 /// The cam's spring by the formulas and by the simulation, and its electromagnets.
@@ -21,21 +19,6 @@ pub struct CamDesign {
     /// The action of the electromagnets against the fitted spring.
     #[serde(rename = "electromagnet")]
     pub magnet: Magnet,
-}
-
-impl CamDesign {
-    /// Creates the cam of a design.
-    pub(crate) fn new(cam: &model::drive::Cam, design: &Design) -> CamDesign {
-        let spring =
-            |energy| CamSpring::for_friction(energy, cam.efficiency, cam.mounting, cam.stroke);
-        let fitted = spring(design.feed);
-        CamDesign {
-            spring: spring(design.friction_energy),
-            needed: design.needed_feed.map(spring),
-            fitted,
-            magnet: magnet(&design.run, &fitted),
-        }
-    }
 }
 
 /// An interval during which the electromagnet of a disc is on. `[s]`
@@ -72,7 +55,7 @@ pub struct Magnet {
 }
 
 /// Returns the action of the electromagnets in a run with this spring.
-fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
+pub(crate) fn magnet(run: &Run, spring: &CamSpring) -> Magnet {
     let swings = run.steps.iter().filter_map(|s| match &s.event {
         Event::Swing { disc, swing } => Some((s, *disc, swing)),
         Event::Dwell => None,

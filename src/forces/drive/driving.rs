@@ -1,10 +1,10 @@
 //! Design and run of a torsional drive: bar, missing angle, cam spring, programme, and the motion of its payload.
 
-use crate::drive::cam::CamDesign;
+use crate::drive::cam::{CamDesign, magnet};
 use crate::drive::programme::{Endurance, Module, Run};
 use crate::drive::swing::{Disc, Feed, Latch, SwingError};
-use crate::drive::torsion::{Bar, Sizing, Wanted, frequency, friction_energy};
-use crate::model::drive::{Damping, DriveSpec};
+use crate::drive::torsion::{Bar, CamSpring, Sizing, Wanted, frequency, friction_energy};
+use crate::model::drive::{Cam, Damping, DriveSpec};
 use serde::Serialize;
 
 /// Step of the chosen lengths of bars. `[m]`
@@ -207,6 +207,18 @@ fn design(spec: &DriveSpec, bar: Bar) -> Result<Design, SwingError> {
         run,
         endurance,
     };
-    design.cam = spec.cam.map(|c| CamDesign::new(&c, &design));
+    design.cam = spec.cam.map(|c| design_cam(&c, &design));
     Ok(design)
+}
+
+/// Returns the cam of a design.
+fn design_cam(cam: &Cam, design: &Design) -> CamDesign {
+    let spring = |energy| CamSpring::for_friction(energy, cam.efficiency, cam.mounting, cam.stroke);
+    let fitted = spring(design.feed);
+    CamDesign {
+        spring: spring(design.friction_energy),
+        needed: design.needed_feed.map(spring),
+        fitted,
+        magnet: magnet(&design.run, &fitted),
+    }
 }

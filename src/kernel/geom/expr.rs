@@ -18,13 +18,14 @@ mod written;
 
 pub use error::ExprError;
 pub use node::Expr;
+pub use node::{Digits, End, WrittenNumber};
 pub(crate) use node::{Function, NodeKind};
 pub use parse::WORDS;
 pub use parse::{MAX_ANGLE_DENOMINATOR, MAX_EXPONENT, MAX_NESTING, MAX_POWER, MAX_TEXT};
 pub use rational::PI_DIGITS;
 use rational::{MAX_BITS, bits, decimal};
 pub(crate) use rational::{PI, rational_sqrt};
-pub use written::{Digits, End, WrittenNumber, half_of};
+pub use written::half_of;
 
 use num_integer::Integer;
 use num_rational::BigRational;

@@ -16,7 +16,6 @@ pub(super) mod scene;
 
 use self::arrow::Arrow;
 use self::body::{Body, Marked};
-use self::moving::frame::MovingPicture;
 use super::subject::Subject;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{JointInSpace, Projection, Vector};
@@ -89,6 +88,20 @@ struct LabelText {
     class: String,
     size: f64,
     text: String,
+}
+
+/// One picture of a moving scheme.
+struct MovingPicture {
+    /// The points of interest.
+    points: Vec<Point>,
+    /// The joints with their frames.
+    places: Vec<JointInSpace>,
+    at: Vec<Point>,
+    /// The shape of each link but the frame.
+    bodies: Vec<(usize, Body)>,
+    /// Lines on links that move.
+    lines: Vec<(&'static str, [Point; 2])>,
+    circles: Vec<Vec<Point>>,
 }
 
 /// A scheme under way.

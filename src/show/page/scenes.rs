@@ -1,7 +1,8 @@
 //! A mechanism in space, to be turned and moved: as far as its drive goes, its idle freedoms, its self-stresses.
 
+use super::contents::SHOWN;
 use super::moving::Moving;
-use super::{SHOWN, swaps};
+use super::symbols::swaps;
 use crate::draw::{Drawing, Moved, Scene, Shown, Sight, Subject, Swap, kinematic_scene};
 use crate::model::mechanism::{Mechanism, StateId};
 use crate::redundancy::analysis::StateAnalysis;

@@ -1,7 +1,8 @@
 //! The original mechanism, state by state: figures, drawings, contours and self-stresses.
 
 use super::contents::Page;
-use super::{swaps, verdict};
+use super::symbols::swaps;
+use super::verdict;
 use crate::draw::{Subject, kinematic_with, scheme};
 use crate::format::plural;
 use crate::model::mechanism::{Mechanism, Mode, StateId};

@@ -1,6 +1,6 @@
 //! The differences between two mechanisms, as changes to the file of the first: a redesign that keeps all comments.
 
-use super::{Edit, Thing};
+use super::change::{Edit, Thing};
 use crate::file::schema::{JointEntry, MechanismFile};
 use serde_json::{Map, Value};
 

@@ -1,6 +1,6 @@
 //! References to links and joints in a file, outside the items themselves.
 
-use super::Thing;
+use super::change::Thing;
 use toml_edit::{Array, DocumentMut, Item, Table, Value};
 
 /// Lists of ids: where they are, and what they name. `*` is every table of a list.

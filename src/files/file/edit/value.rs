@@ -1,6 +1,6 @@
 //! Values of a file: what is the same stays as it is written.
 
-use super::EditError;
+use super::change::EditError;
 use serde_json::Value as Json;
 use toml_edit::{Array, InlineTable, Item, Table, Value};
 

@@ -3,7 +3,7 @@
 use crate::geom::rigid::{RigidMotion, perpendicular, towards};
 use crate::geom::vector::{Vector, add, add_scaled, cross, dot, length, scale, sub};
 use crate::model::joint_type::{Freedom, JointType};
-use crate::robots::cad::Holds;
+use crate::robots::cad::holds::Holds;
 use crate::robots::description::{Part, Ratio};
 
 /// Sines and ways below this have no direction.

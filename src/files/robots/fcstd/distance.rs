@@ -2,7 +2,7 @@
 
 use crate::geom::rigid::RigidMotion;
 use crate::geom::vector::{add_scaled, cross, dot, length, sub};
-use crate::robots::cad::Holds;
+use crate::robots::cad::holds::Holds;
 use crate::robots::fcstd::objects::Object;
 use crate::robots::fcstd::reference::Reference;
 use crate::robots::warning::Read;

@@ -2,7 +2,6 @@
 
 use super::enclosure::Enclosure;
 use super::rational::PI;
-use super::written::WrittenNumber;
 use num_rational::BigRational;
 use std::sync::Arc;
 
@@ -118,4 +117,42 @@ impl Drop for Node {
             }
         }
     }
+}
+
+/// The written form of a number. Results of arithmetic have none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum WrittenNumber {
+    /// Written as an expression, or not at all: exact.
+    #[default]
+    No,
+    /// Written as a whole number, without a point.
+    Whole,
+    /// Written as a decimal.
+    Decimal(Digits),
+    /// Written in any form, with a stated deviation from the intended value, or exact if that is 0.
+    Stated(f64),
+}
+
+/// The digits of a decimal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Digits {
+    /// Half a unit of the last digit, times the factor that the decimal was multiplied by.
+    pub half: f64,
+    /// Digits after the point, less the power of ten; negative if the last digit is worth more than one.
+    pub places: i32,
+    /// Significant digits, including trailing zeros; 0 for zero.
+    pub significant: usize,
+    /// Kind of its last digits.
+    pub end: End,
+}
+
+/// The end of a decimal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// A nonzero digit.
+    Digit,
+    /// A 0 that is written only if all digits are written: 0.50, 12.00.
+    Zero,
+    /// The `.0` that programs append to whole numbers.
+    Float,
 }

@@ -2,7 +2,7 @@
 
 use super::Expr;
 use super::node::NodeKind;
-use super::written::WrittenNumber;
+use super::node::WrittenNumber;
 use num_traits::{One, Zero};
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -1,9 +1,9 @@
 //! Parser of expressions: a recursive descent with limits on size and depth.
 
 use super::error::ExprError;
+use super::node::{Digits, WrittenNumber};
 use super::node::{Expr, Function, NodeKind};
 use super::rational::{MAX_BITS, bits, decimal, fraction};
-use super::written::{Digits, WrittenNumber};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};

@@ -3,8 +3,7 @@
 pub(in crate::draw::kinematic) mod frame;
 pub(in crate::draw::kinematic) mod sliding;
 
-use super::{Kinematic, Spot, Words};
-use crate::draw::kinematic::moving::frame::MovingPicture;
+use super::{Kinematic, MovingPicture, Spot, Words};
 use crate::draw::kinematic::moving::sliding::Carried;
 use crate::draw::place::projection::JointInSpace;
 use crate::draw::place::projection::Sight;

@@ -1,7 +1,6 @@
 //! Placement of the names of joints and links.
 
-use super::moving::frame::MovingPicture;
-use super::{Kinematic, LabelText, Spot};
+use super::{Kinematic, LabelText, MovingPicture, Spot};
 use crate::draw::sheet::SMALL;
 use crate::draw::symbol::ground::Ground;
 use crate::svg::labels::{self, AvoidedLine, CROSSED, Wish};

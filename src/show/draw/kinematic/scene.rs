@@ -7,8 +7,7 @@ mod standing;
 
 use super::arrow::Arrow;
 use super::moving::{Moved, flag_row, poses};
-use super::{Kinematic, Words};
-use crate::draw::kinematic::moving::frame::MovingPicture;
+use super::{Kinematic, MovingPicture, Words};
 use crate::draw::kinematic::moving::sliding::Carried;
 use crate::draw::place::projection::Sight;
 use crate::draw::place::projection::{Vector, sub};

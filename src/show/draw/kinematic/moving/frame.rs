@@ -1,8 +1,8 @@
 //! One picture of a moving scheme: where a pose has carried everything.
 
-use crate::draw::kinematic::Kinematic;
 use crate::draw::kinematic::body::{Body, draw_mark};
 use crate::draw::kinematic::moving::sliding::Carried;
+use crate::draw::kinematic::{Kinematic, MovingPicture};
 use crate::draw::place::projection::{
     JointInSpace, Vector, add as add3, cross, norm, scale as times, sub,
 };
@@ -17,20 +17,6 @@ const FLAG: f64 = 26.0;
 const STILL: f64 = 2.0;
 /// What turns by less than this, in radians, is not seen to.
 const UPRIGHT: f64 = 0.05;
-
-/// One picture.
-pub(in crate::draw::kinematic) struct MovingPicture {
-    /// The points of interest.
-    pub(in crate::draw::kinematic) points: Vec<Point>,
-    /// The joints with their frames.
-    pub(in crate::draw::kinematic) places: Vec<JointInSpace>,
-    pub(in crate::draw::kinematic) at: Vec<Point>,
-    /// The shape of each link but the frame.
-    pub(in crate::draw::kinematic) bodies: Vec<(usize, Body)>,
-    /// Lines on links that move.
-    pub(in crate::draw::kinematic) lines: Vec<(&'static str, [Point; 2])>,
-    pub(in crate::draw::kinematic) circles: Vec<Vec<Point>>,
-}
 
 /// A line on a link that moves: what a block slides along, or a flag that shows it turn.
 pub(in crate::draw::kinematic) struct LinkLine {
