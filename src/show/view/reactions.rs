@@ -160,7 +160,7 @@ impl<'a> Reactions<'a> {
 
     /// Returns one joint a line, and one for each joint of a coupling.
     pub fn csv(&self) -> String {
-        table(&HEADS, self.rows())
+        table(&HEADS.split(',').collect_vec(), self.rows())
     }
 
     fn rows(&self) -> impl Iterator<Item = Vec<String>> {
@@ -197,18 +197,4 @@ impl<'a> Reactions<'a> {
     }
 }
 
-const HEADS: [&str; 13] = [
-    "kind",
-    "joint",
-    "type",
-    "Fx",
-    "Fy",
-    "Fz",
-    "F",
-    "Mx",
-    "My",
-    "Mz",
-    "M",
-    "effort",
-    "effort_unit",
-];
+const HEADS: &str = "kind,joint,type,Fx,Fy,Fz,F,Mx,My,Mz,M,effort,effort_unit";

@@ -14,14 +14,7 @@ use std::io::{self, Write};
 use std::iter;
 
 /// Columns before the joints.
-const FIGURES: [&str; 6] = [
-    "position",
-    "cost",
-    "mobility",
-    "redundant",
-    "external_redundant",
-    "changes",
-];
+const FIGURES: &str = "position,cost,mobility,redundant,external_redundant,changes";
 /// Columns after them.
 const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
 /// Columns at the end.
@@ -79,7 +72,7 @@ pub fn write(
 fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
     let search = &outcome.search;
     let joints = columns(search);
-    let mut heads: Vec<&str> = FIGURES.to_vec();
+    let mut heads: Vec<&str> = FIGURES.split(',').collect();
     let names = joints
         .iter()
         .map(|&(_, j)| search.mechanism.joints[j].id.as_str());
