@@ -23,14 +23,14 @@ pub struct Drive<'a> {
     pub file: &'a WorkloadFile<DriveSpec>,
     /// How the bar was sized.
     pub sizing: &'a Sizing,
-    /// The drive, where there is a bar.
+    /// The drive, if there is a bar.
     pub design: Option<&'a Design>,
-    /// Of drives out of true, where they were asked for.
+    /// Results for inaccurate drives, if they were asked for.
     pub samples: Option<RunShares>,
 }
 
 /// Returns the pieces of the push of a drive, (where it begins `[rad]`, moment `[N·m]`), each up to the next and the last up to the
-/// latch; none where nothing is fed.
+/// latch. Empty if nothing is fed.
 fn feed_moments(d: &Design) -> Vec<(f64, f64)> {
     let pieces = d.module.feed.moments(d.module.latch.at).into_iter();
     pieces.map(|([from, _], moment)| (from, moment)).collect()

@@ -24,7 +24,7 @@ pub struct Reactions<'a> {
     exact_self_stresses: Option<usize>,
 }
 
-/// Returns what a face does: `pushes`, `idle`, or what no such face can do: `pulls`, `slips`, `tilts`.
+/// Returns the state of a face: `pushes`, `idle`, or one that no such face can have: `pulls`, `slips`, `tilts`.
 fn touch(c: &ContactForce) -> &'static str {
     match c.touch {
         Touch::Pushes => "pushes",

@@ -9,7 +9,7 @@ use crate::view::drive::{Drive, feed_moments};
 /// Points drawn of a swing.
 const PER_SWING: u32 = 48;
 
-/// The cam's profile, where the cam's and the roller's radius are stated; in the file's unit.
+/// Returns the cam's profile in the file's unit, if the radii of cam and roller are stated.
 pub fn cam(d: &Drive<'_>) -> Option<Outline> {
     let cam = d.design?.cam.as_ref()?;
     let (profile, unit) = (cam.profile.as_ref()?, d.file.length_unit);
@@ -67,7 +67,7 @@ pub fn motion(d: &Drive<'_>) -> Option<String> {
     Some(csv::table(&["time", "ax", "ay", "az"], rows))
 }
 
-/// Both charts with the names of their files; none without a bar.
+/// Returns both charts with the names of their files. Empty without a bar.
 pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let Some(found) = d.design else {
         return Vec::new();

@@ -1,11 +1,11 @@
-//! What became of drives out of true, as text and as data.
+//! Results for inaccurate drives, as text and as data.
 
 use crate::drive::RunShares;
 use crate::drive::programme::PATIENCE;
 use crate::view::prelude::*;
 use std::collections::BTreeMap;
 
-/// First failures told before the rest is left out.
+/// Maximum number of first failures in a text.
 const SHOWN: usize = 6;
 
 /// Returns the swings that are the first to miss their latch, the earliest first: the swing, counted from 1 over the rounds of the

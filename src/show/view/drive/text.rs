@@ -9,9 +9,9 @@ use crate::view::claims::{self, about};
 use crate::view::drive::{Drive, feed_moments, samples};
 use crate::view::prelude::*;
 
-/// Rows of the programme shown before the rest is left out.
+/// Maximum number of rows of the programme in a text.
 const SHOWN: usize = 24;
-/// Pieces of the cam's push shown before the rest is left out.
+/// Maximum number of pieces of the cam's push in a text.
 const PIECES: usize = 6;
 
 /// Returns the report, fitted to a terminal of `width` columns if one is given.

@@ -7,7 +7,7 @@ use crate::grip::faces::{JawFace, PressureArea};
 use crate::grip::force_closure::{ClosureShares, ForceClosure, NOTHING};
 use crate::view::prelude::*;
 
-/// What the contacts of a state hold.
+/// Force and form closure of the contacts of a state.
 #[derive(Debug)]
 pub struct ClosureData<'a> {
     /// The mechanism.
@@ -18,7 +18,7 @@ pub struct ClosureData<'a> {
     pub force: ForceClosure,
     /// Without.
     pub form: ForceClosure,
-    /// Of parts out of true, where they were asked for.
+    /// Results for inaccurate parts, if they were asked for.
     pub samples: Option<ClosureShares>,
 }
 
@@ -27,7 +27,7 @@ fn split(d: &[f64; 6]) -> ([f64; 3], [f64; 3]) {
     ([d[0], d[1], d[2]], [d[3], d[4], d[5]])
 }
 
-/// How much of a load is resisted by normal forces of 1 in all; nothing where there is no limit.
+/// Returns the part of a load that normal forces with the sum 1 resist, or null if there is no limit.
 fn load(d: &[f64; 6], resisted: f64) -> Value {
     let (moment, force) = split(d);
     let resisted = Some(resisted).filter(|x| x.is_finite());
@@ -65,8 +65,8 @@ fn amount(resisted: f64) -> String {
     }
 }
 
-/// Closure, and how far from its loss, as data: the radius of the greatest ball of loads resisted, and the load resisted least; nothing
-/// where no load has a limit.
+/// Returns closure and its margin as data: the radius of the greatest ball of loads resisted, and the load resisted least, or null if
+/// no load has a limit.
 fn margin(c: &ForceClosure) -> Value {
     let finite = c.at_most.is_finite();
     let least = if c.at_least.is_finite() {
@@ -120,12 +120,12 @@ impl ClosureData<'_> {
         self.part.size * self.part.geometry.size
     }
 
-    /// Returns how many motions the jaws have with drives held and contacts let go.
+    /// Returns how many motions the jaws have with drives held and contacts released.
     fn loose(&self) -> usize {
         self.part.motions.len() - self.part.axes.len()
     }
 
-    /// Returns the radius of a disc, the half length of a line `[m]`; nothing where it has no end.
+    /// Returns the radius of a disc, or the half length of a line `[m]`. Returns `None` if it has no end.
     fn reach(&self, f: &JawFace) -> Option<f64> {
         f.reach().map(|r| r * self.part.geometry.size)
     }

@@ -118,7 +118,7 @@ fn cells_of(search: &Search, joints: &[(usize, JointId)]) -> Vec<(usize, Vec<Str
 /// The lines of some variants, one after another.
 struct Lines {
     text: String,
-    /// The cells of all choices: most of a line is the same few words again and again.
+    /// The cells of all choices, because lines repeat the same few words.
     chosen: Vec<(usize, Vec<String>)>,
     /// The last cost, which is often that of the next variant, too.
     cost: (i64, String),
