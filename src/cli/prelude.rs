@@ -2,7 +2,7 @@
 
 pub(crate) use crate::cli::option::named::{File, Loops, Named};
 pub(crate) use crate::cli::option::{Global, TextJsonOrCsv, TextOrJson, ToFile, load};
-pub(crate) use crate::cli::terminal::colour::{Tone, toned};
+pub(crate) use crate::cli::terminal::output::{Tone, toned};
 pub(crate) use crate::cli::terminal::progress::{Bar, note};
 pub(crate) use crate::cli::terminal::{Done, interrupt, output};
 pub(crate) use crate::format::{plural, significant};

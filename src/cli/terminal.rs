@@ -1,7 +1,6 @@
 //! The terminal: output, progress, interrupts, colour, memory.
 
 pub(crate) mod charts;
-pub(crate) mod colour;
 pub(crate) mod interrupt;
 pub(crate) mod machine;
 pub(crate) mod memory;

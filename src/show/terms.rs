@@ -1,4 +1,4 @@
-//! What the terms of the output and the help mean, for `ozols explain`.
+//! Terms of the output and the help with their meanings, for `ozols explain`.
 
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -77,11 +77,11 @@ impl Terms {
     }
 }
 
-/// What an engineer has to know of a joint type beside its freedoms.
+/// Facts about a joint type in addition to its freedoms.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PairWords {
-    /// What it is, in a sentence.
+    /// Definition in a sentence.
     pub about: String,
     /// What its `axis` stands for.
     pub axis: String,

@@ -21,7 +21,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Display;
 
-/// Returns the words for how sure a figure is, with the number of assumptions where there are any.
+/// Returns the words for how sure a figure is, with the number of assumptions if there are any.
 pub(crate) fn as_read(m: &Mechanism, sure: String) -> String {
     match with_assumptions(m) {
         None => sure,
@@ -29,18 +29,18 @@ pub(crate) fn as_read(m: &Mechanism, sure: String) -> String {
     }
 }
 
-/// Returns "of the file as read, with 2 assumptions", or nothing where nothing was assumed.
+/// Returns "of the file as read, with 2 assumptions". Returns `None` if nothing was assumed.
 pub(crate) fn with_assumptions(m: &Mechanism) -> Option<String> {
     let n = m.assumed.len();
     (n > 0).then(|| format!("of the file as read, with {}", plural(n, "assumption")))
 }
 
-/// Returns the same in one word for programs: `as-read`, or the word given where nothing was assumed.
+/// Returns the same in one word for programs: `as-read`, or the given word if nothing was assumed.
 pub(crate) fn kind(m: &Mechanism, sure: &'static str) -> &'static str {
     if m.assumed.is_empty() { sure } else { AS_READ }
 }
 
-/// What is said of figures that rest on assumptions.
+/// Word for figures that rest on assumptions.
 pub(crate) const AS_READ: &str = "as-read";
 
 /// The number of the contract of all JSON that the commands print. It is raised when a key goes or means something else; keys that
@@ -50,7 +50,7 @@ pub const FORMAT: u32 = 1;
 /// A value as JSON for people to read and programs to parse; an object with `format`, the number of the contract, first.
 ///
 /// # Errors
-/// Where a key is no text.
+/// Returns an error if a key is not text.
 ///
 /// # Examples
 /// ```

@@ -93,3 +93,15 @@ fn what_is_meant_is_no_fault() {
     assert_eq!(state["drives"][0]["kind"], "dead-point");
     assert_eq!(state["idle"].list().len(), 0);
 }
+
+/// `check` warns of what `analyze` finds, after a verdict that the file is valid.
+#[test]
+fn check_names_faults_of_drives() {
+    let open = [[0, 0], [1, 2], [4, 3], [3, 0]];
+    let (code, said, warned) = run_on("check", "ring.toml", &ring(&open, &[0, 3], 3), &[]);
+    assert_eq!(code, Some(0));
+    assert!(said.starts_with("ring: valid, "), "{said}");
+    has(&warned, "2 drives for 1 degree of freedom");
+    let (_, _, warned) = run_on("check", "ring.toml", &ring(&open, &[0], 3), &[]);
+    assert!(!warned.contains("degree of freedom"), "{warned}");
+}

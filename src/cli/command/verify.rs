@@ -109,6 +109,7 @@ pub(crate) fn run(_: &Global, a: &Verify) -> anyhow::Result<Done> {
             m.name
         ));
     }
-    output::put(None, lines.join("\n") + "\n")?;
+    let lines: String = lines.iter().map(|l| format!("{l}\n")).collect();
+    output::put(None, lines)?;
     Ok(done)
 }

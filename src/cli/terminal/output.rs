@@ -9,6 +9,8 @@ use crate::cli::terminal::{Done, spinner};
 use crate::file::problem::ImportError;
 use crate::format::plain::{coloured, plain};
 use crate::{api, view};
+use anstream::{AutoStream, ColorChoice};
+use anstyle::AnsiColor;
 use anyhow::Context;
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
@@ -168,7 +170,7 @@ pub(crate) fn complain(e: &anyhow::Error) {
     let text = match problems(e) {
         Some(import) => import.render(true),
         None => {
-            let style = anstyle::AnsiColor::Red.on_default().bold();
+            let style = AnsiColor::Red.on_default().bold();
             format!("{style}error:{style:#} {}", plain(&format!("{e:#}")))
         }
     };
@@ -187,6 +189,43 @@ pub(crate) fn problems(e: &anyhow::Error) -> Option<&ImportError> {
 /// Prints a note on standard error, without its colours if they are not supported.
 pub(crate) fn coloured_note(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", coloured(text));
+}
+
+/// The kind of a verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tone {
+    Good,
+    Doubtful,
+    Bad,
+}
+
+/// Returns a text with each of the verdicts in its colour; each verdict is searched for after the one before. Returns it
+/// unchanged if it goes to a file or nobody looks.
+pub(crate) fn toned(
+    text: String,
+    path: Option<&Path>,
+    verdicts: impl IntoIterator<Item = (String, Tone)>,
+) -> String {
+    if file(path).is_some() || AutoStream::choice(&std::io::stdout()) == ColorChoice::Never {
+        return text;
+    }
+    let mut rest = text.as_str();
+    let mut out = String::with_capacity(text.len());
+    for (words, tone) in verdicts {
+        // A terminal so narrow that the words are broken has them without colour.
+        let Some((before, after)) = rest.split_once(&words) else {
+            continue;
+        };
+        let colour = match tone {
+            Tone::Good => AnsiColor::Green,
+            Tone::Doubtful => AnsiColor::Yellow,
+            Tone::Bad => AnsiColor::Red,
+        };
+        let style = colour.on_default().bold();
+        out += &format!("{before}{style}{words}{style:#}");
+        rest = after;
+    }
+    out + rest
 }
 
 /// Runs `write` on a named output, and returns its result after everything is written.

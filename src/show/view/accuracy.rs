@@ -74,7 +74,7 @@ fn row(r: &Record) -> Vec<String> {
     ]
 }
 
-/// The median, and how far the times are from it at most.
+/// Returns the median and the largest deviation from it.
 fn spread(t: Timing) -> String {
     let off = (t.most - t.median).max(t.median - t.least);
     match t.repeats {

@@ -1,4 +1,4 @@
-//! An analysis as what is told of it, as JSON, as text and on the page; the keys of JSON are a stable contract.
+//! An analysis as JSON, as text and on the page; the keys of JSON are a stable contract.
 
 pub mod idle;
 pub mod link_motions;
@@ -37,11 +37,11 @@ pub struct Analysis<'a> {
 pub struct State<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
-    /// What was found of the state.
+    /// Its analysis.
     pub found: &'a StateAnalysis,
     /// The motions of other links than the outputs that were asked about.
     pub asked: Vec<LinkMotion>,
-    /// What single changes would do, where that was asked for.
+    /// Effects of single changes, if they were asked for.
     pub advice: Option<&'a Advice>,
 }
 
@@ -92,7 +92,7 @@ impl State<'_> {
         all
     }
 
-    /// Returns how sure the figures are; π is not exact, whatever the rest.
+    /// Returns how sure the figures are; a file with π is not exact.
     pub(crate) fn certainty(&self) -> String {
         let (m, s) = (self.mechanism, self.found);
         let words = s.certainty.describe();
@@ -107,7 +107,7 @@ impl State<'_> {
         as_read(m, sure)
     }
 
-    /// Returns the finite mobility; nothing where it is undecided.
+    /// Returns the finite mobility, or `None` if it is undecided.
     pub(crate) fn finite_mobility(&self) -> Option<usize> {
         let finite = &self.found.finite;
         (!finite.is_undecided()).then_some(finite.mobility)
@@ -263,8 +263,8 @@ fn coupling(c: &CouplingShare) -> Value {
     json!({ "coupling": c.name, "redundant": c.redundant, "least": 0, "greatest": c.most })
 }
 
-/// Returns the rows of the closure equations that are enough for their rank, of some contours for some motions; none where all rows are
-/// taken as they are, and where rounded coordinates do not decide the rank.
+/// Returns the rows of the closure equations that are enough for their rank, of some contours for some motions. Empty if all rows are
+/// needed, or if rounded coordinates do not decide the rank.
 fn least_rows(mechanism: &Mechanism, s: &StateAnalysis) -> Value {
     let found = s.least_rows.as_ref().filter(|l| !LeastRows::is_all(l));
     let Some(found) = found.filter(|_| s.at_most().is_none()) else {

@@ -21,7 +21,7 @@ pub struct Drive<'a> {
     pub file: &'a WorkloadFile<DriveSpec>,
     /// How the bar was sized.
     pub sizing: &'a Sizing,
-    /// The drive, where there is a bar.
+    /// The drive, if there is a bar.
     pub design: Option<&'a Design>,
 }
 

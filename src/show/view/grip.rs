@@ -18,14 +18,14 @@ use crate::view::claims::about;
 use crate::view::grip::motion::GripMotion;
 use crate::view::prelude::*;
 
-/// What a gripper can hold.
+/// The holding ability of a gripper.
 #[derive(Debug)]
 pub struct GripReport<'a> {
     /// The file, for its units and inputs.
     pub file: &'a WorkloadFile<GripSpec>,
-    /// What was found of it.
+    /// Its study.
     pub found: &'a Grip,
-    /// The clamping along a motion, where one is asked about.
+    /// The clamping along a motion, if one was asked for.
     pub motion: Option<GripMotion>,
 }
 

@@ -1,4 +1,4 @@
-//! What robot descriptions hold twice: text and JSON.
+//! Redundant constraints of robot descriptions, as text and JSON.
 
 mod assembly;
 mod finding;
@@ -25,14 +25,14 @@ const NUMERIC: &str = "numeric";
 const OF_THIS_POSE: &str =
     "of the pose of the file alone, where joints are open or taken as they are there";
 
-/// What was found in one file.
+/// Findings in one file.
 #[derive(Debug, Serialize)]
 pub struct Lint {
     /// Name of the file.
     pub file: String,
     /// W.
     pub mobility: usize,
-    /// σ; the least it can be where that is not decided.
+    /// σ, or its lower bound if it is not decided.
     pub redundant: usize,
     /// The most that σ can be.
     pub redundant_at_most: usize,
@@ -42,40 +42,40 @@ pub struct Lint {
     pub certainty_kind: &'static str,
     /// The line.
     pub certainty: String,
-    /// Where it holds, in a word: proven, followed, seen, rigid, pose or unknown; nothing where σ = 0.
+    /// Where it holds, in a word: proven, followed, seen, rigid, pose or unknown. `None` if σ = 0.
     pub over_motion_kind: Option<&'static str>,
     /// In words.
     pub over_motion: Option<String>,
-    /// Rows of couplings that are left out of the figures: W is up to so many too high, σ may be too low.
+    /// Number of rows of couplings that the figures omit: W may be too high by it, and σ too low.
     pub left_out: usize,
-    /// What was read approximately, or left out though it may hold or move something.
+    /// Elements that were approximated, or omitted although they may constrain or move something.
     pub approximated: Vec<String>,
-    /// Those of these that are guesses or left out; the certainty counts them.
+    /// Guesses and omissions among these; the certainty counts them.
     pub assumptions: Vec<String>,
     /// How many they are, in words.
     #[serde(skip)]
     read_with: Option<String>,
-    /// What is not as drawn: joints moved to close loops, bases that float.
+    /// Differences from the drawing: joints moved to close loops, floating bases.
     pub moved: Vec<String>,
     /// Joints that stand outside their limits in the pose that the figures are of.
     pub outside_limits: Vec<String>,
     /// Each redundant constraint.
     pub findings: Vec<Finding>,
-    /// The cheapest releases that remove them all and let nothing move; none where there are not enough.
+    /// The cheapest releases that remove them all and add no mobility. Empty if there are not enough.
     pub cheapest: Vec<String>,
-    /// What a CAD program counts as freedoms, six a part less all constraints, where the file is one of its assemblies.
+    /// Freedoms as a CAD program counts them, six per part less all constraints, if the file is one of its assemblies.
     pub counted: Option<i64>,
     /// Which joints to give another type, where they are those of a CAD program.
     pub changes: Vec<TypeChange>,
     /// W then: more than now where a part may turn or slide without anything else moving.
     pub mobility_then: Option<usize>,
-    /// Whether the file is a robot description, which can be mended.
+    /// True if the file is a robot description, which can be fixed.
     #[serde(skip)]
     pub from_description: bool,
 }
 
 impl Lint {
-    /// What was found in a mechanism, in the words of the description it came from, where it did.
+    /// Describes the findings in a mechanism, in the words of its description if it came from one.
     pub fn new(file: &str, m: &Mechanism, read: Option<&Imported>, found: &HeldTwice) -> Lint {
         let origin = read.map(|i| &i.origin);
         let report = read.map(|i| &i.report);
@@ -140,12 +140,12 @@ impl Lint {
         self
     }
 
-    /// Whether nothing is redundant, for sure, or at this pose only.
+    /// Returns true if nothing is redundant over the motion.
     pub fn is_clean(&self) -> bool {
         self.redundant_over_motion == 0
     }
 
-    /// Whether the file is in order: nothing is redundant, and nothing that could be was left out.
+    /// Returns true if nothing is redundant and no row that could be redundant was omitted.
     pub fn is_in_order(&self) -> bool {
         self.is_clean() && self.left_out == 0
     }
@@ -160,7 +160,7 @@ impl Lint {
         self.redundant == self.redundant_at_most
     }
 
-    /// The findings, a paragraph each.
+    /// Returns the findings, a paragraph each.
     pub fn text(&self) -> String {
         let Lint { file, mobility, .. } = self;
         if self.redundant_at_most == 0 {
@@ -272,7 +272,7 @@ impl Lint {
     }
 }
 
-/// What was found in some files as JSON, and which were passed over.
+/// Returns the findings in some files as JSON, and the files that were skipped.
 pub fn json(all: &[&Lint], passed_over: &[PassedOver]) -> Value {
     let mut out = json!({ "files": all });
     finding::in_json(&mut out, passed_over);

@@ -24,7 +24,7 @@ pub struct Reactions<'a> {
     exact_self_stresses: Option<usize>,
 }
 
-/// Returns what a face does: `pushes`, `idle`, or what no such face can do: `pulls`, `slips`, `tilts`.
+/// Returns the state of a face: `pushes`, `idle`, or one that no such face can have: `pulls`, `slips`, `tilts`.
 fn touch(c: &ContactForce) -> &'static str {
     match c.touch {
         Touch::Pushes => "pushes",
@@ -160,7 +160,7 @@ impl<'a> Reactions<'a> {
 
     /// Returns one joint a line, and one for each joint of a coupling.
     pub fn csv(&self) -> String {
-        table(&HEADS, self.rows())
+        table(&HEADS.split(',').collect_vec(), self.rows())
     }
 
     fn rows(&self) -> impl Iterator<Item = Vec<String>> {
@@ -197,18 +197,4 @@ impl<'a> Reactions<'a> {
     }
 }
 
-const HEADS: [&str; 13] = [
-    "kind",
-    "joint",
-    "type",
-    "Fx",
-    "Fy",
-    "Fz",
-    "F",
-    "Mx",
-    "My",
-    "Mz",
-    "M",
-    "effort",
-    "effort_unit",
-];
+const HEADS: &str = "kind,joint,type,Fx,Fy,Fz,F,Mx,My,Mz,M,effort,effort_unit";

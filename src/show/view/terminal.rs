@@ -1,4 +1,4 @@
-//! What all texts for people have in common: tables that fit the terminal, prefixes of units, commands to go on with.
+//! Common parts of texts for people: tables that fit the terminal, prefixes of units, next commands.
 
 pub mod layout;
 pub mod next_commands;

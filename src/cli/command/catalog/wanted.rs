@@ -52,22 +52,12 @@ struct Filter {
     option: String,
     /// The condition in SQL.
     holds: String,
-    /// The best existing value, in SQL and in words. `None` if the bound is not a number.
-    best: Option<(String, String)>,
-    /// The column that answers are sorted by, the best first. `None` if the bound is not a number.
-    sorted: Option<String>,
+    /// The best existing value in SQL and in words, and the order of answers with the best first. `None` if the bound is not a
+    /// number.
+    best: Option<[String; 3]>,
 }
 
 impl Filter {
-    fn word(option: &str, holds: &str) -> Filter {
-        Filter {
-            option: option.to_owned(),
-            holds: holds.to_owned(),
-            best: None,
-            sorted: None,
-        }
-    }
-
     /// Returns the filter for a column that must be `>=` or `<=` a number.
     fn number(option: &str, column: &str, sign: &str, x: f64) -> Filter {
         let (function, word, way) = match sign {
@@ -75,26 +65,24 @@ impl Filter {
             _ => ("min", "smallest", "ASC"),
         };
         let name = option.trim_start_matches('-').replace('-', " ");
+        let best = [
+            format!("{function}({column})"),
+            format!("the {word} {name}"),
+            format!("{column} {way}, "),
+        ];
         Filter {
             option: format!("{option} {x}"),
             holds: format!("{column} {sign} {x}"),
-            best: Some((
-                format!("{function}({column})"),
-                format!("the {word} {name}"),
-            )),
-            sorted: Some(format!("{column} {way}")),
+            best: Some(best),
         }
     }
 }
 
 impl WantedGrippers {
     fn bounds(&self) -> Vec<Filter> {
+        let reached = "reached = 1 AND shortfall IS NULL";
         let words = [
-            (
-                self.does_task,
-                "--does-task",
-                "reached = 1 AND shortfall IS NULL",
-            ),
+            (self.does_task, "--does-task", reached),
             (self.front, "--front", "id IN (SELECT id FROM front)"),
         ];
         let numbers = [
@@ -106,10 +94,14 @@ impl WantedGrippers {
             ("--cost", "cost", "<=", self.cost),
         ];
         let words = words.iter().filter(|(asked, ..)| *asked);
+        let words = words.map(|(_, option, sql)| Filter {
+            option: (*option).to_owned(),
+            holds: (*sql).to_owned(),
+            best: None,
+        });
         let numbers = numbers
             .iter()
             .filter_map(|(o, column, sign, x)| Some(Filter::number(o, column, sign, (*x)?)));
-        let words = words.map(|(_, o, sql)| Filter::word(o, sql));
         words.chain(numbers).collect()
     }
 
@@ -122,8 +114,10 @@ impl WantedGrippers {
     /// bounds the first 25 of all, and of the drawn mechanisms.
     pub(super) fn question(&self) -> String {
         let bounds = self.bounds();
-        let sorted = bounds.iter().filter_map(|b| b.sorted.as_deref());
-        let sorted: String = sorted.map(|s| format!("{s}, ")).collect();
+        let sorted = bounds
+            .iter()
+            .filter_map(|b| Some(b.best.as_ref()?[2].as_str()));
+        let sorted: String = sorted.collect();
         let order = format!(
             "ORDER BY coalesce(does_task = 'no', 0), {sorted}links, layout = 'generic', cost, transmission DESC, id"
         );
@@ -144,7 +138,7 @@ impl WantedGrippers {
             let others = bounds.iter().enumerate().filter(|(k, _)| *k != i);
             let others = others.map(|(_, b)| b.holds.as_str()).join(" AND ");
             let others = if others.is_empty() { "1" } else { &others };
-            let best = bound.best.as_ref().map_or("NULL", |(sql, _)| sql);
+            let best = bound.best.as_ref().map_or("NULL", |[sql, ..]| sql);
             let sql = format!("SELECT count(*), {best} FROM grippers WHERE {others}");
             let (_, rows) = store.query(&sql, None)?;
             let row = rows.first().map_or(&[][..], Vec::as_slice);
@@ -155,7 +149,7 @@ impl WantedGrippers {
             found = true;
             out += &format!("  without {}: {count}", bound.option);
             let best = row.get(1).and_then(Value::as_f64);
-            if let (Some((_, name)), Some(best)) = (&bound.best, best) {
+            if let (Some([_, name, _]), Some(best)) = (&bound.best, best) {
                 out += &format!("; {name} is {}", significant(best));
             }
             out += "\n";

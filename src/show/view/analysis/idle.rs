@@ -4,7 +4,7 @@ use crate::redundancy::local_mobility::Idle;
 use crate::redundancy::motion::DriveFault;
 use crate::view::prelude::*;
 
-/// "link 5 spins about the line through 4-5 and 5-1".
+/// Returns an idle motion in words: "link 5 spins about the line through 4-5 and 5-1".
 pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
     let names = motion
         .links
@@ -33,7 +33,7 @@ pub(crate) fn words(mechanism: &Mechanism, motion: &Idle) -> String {
     }
 }
 
-/// Neighbours that read alike told once, with how often.
+/// Merges neighbours with the same text, with their number.
 pub(crate) fn told_once(motions: impl Iterator<Item = String>) -> Vec<String> {
     let alike = motions.dedup_with_count();
     alike

@@ -1,4 +1,4 @@
-//! What a mechanism file describes, in a few lines and without any analysis.
+//! Summary of a mechanism file in a few lines, without any analysis.
 
 use crate::view::analysis::mobility::StructureSize;
 use crate::view::prelude::*;
@@ -7,7 +7,7 @@ use num_bigint::BigUint;
 /// Names shown of a list.
 const SHOWN: usize = 12;
 
-/// The links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
+/// Returns the links, joints, states, options and workload of a mechanism, a line each; `across` is its size in the file's unit.
 pub fn describe(m: &Mechanism, across: f64) -> Vec<String> {
     let mut out = vec![links(m, across), joints(m), states(m), search(m)];
     out.extend(workload(m));

@@ -5,7 +5,7 @@ use crate::geom::Reals;
 use crate::rank::method::{Answer, MobilityMethod};
 use crate::view::prelude::*;
 
-/// What a method says of states of a mechanism.
+/// Answers of a method for states of a mechanism.
 #[derive(Debug)]
 pub struct ByMethod<'a> {
     /// The mechanism.

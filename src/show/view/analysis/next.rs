@@ -1,4 +1,4 @@
-//! What to do after an analysis.
+//! Commands to suggest after an analysis.
 
 use super::State;
 use crate::search::answer::single_changes::USUAL_UNLOADING;
@@ -6,7 +6,7 @@ use crate::view::analysis::suggestions::{Advice, concerned};
 use crate::view::prelude::*;
 use crate::view::terminal::next_commands::{NextCommand, file_name, word};
 
-/// What to do after an analysis of `file`.
+/// Returns the commands to suggest after an analysis of `file`.
 pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand> {
     let mut steps: Vec<NextCommand> = states.iter().filter_map(|s| to_remove(s, file)).collect();
     if !steps.is_empty() {
@@ -31,8 +31,8 @@ pub fn next(m: &Mechanism, states: &[State<'_>], file: &str) -> Vec<NextCommand>
     steps
 }
 
-/// What finds the redesigns that remove what is redundant in a state, or gives joints a choice; nothing where no change is
-/// known that removes any.
+/// Returns the step towards redesigns without the redundant constraints of a state. Returns `None` if no change is known that
+/// removes any.
 fn to_remove(s: &State<'_>, file: &str) -> Option<NextCommand> {
     let Some(Advice::Changes(found)) = s.advice else {
         return None;

@@ -6,25 +6,25 @@ use crate::redundancy::analysis::StateAnalysis;
 use crate::search::answer::single_changes::{self, Suggestion, single_changes};
 use crate::view::prelude::*;
 
-/// Rows of a table at most.
+/// Maximum number of rows of a table.
 const ROWS: usize = 5;
-/// Joints named in a row at most.
+/// Maximum number of joints in a row.
 const JOINTS: usize = 12;
-/// Entries of a JSON list at most.
+/// Maximum number of entries of a JSON list.
 const ENTRIES: usize = 50;
 
-/// What can be suggested for a state.
+/// Suggestions for a state.
 #[derive(Debug, Clone)]
 pub enum Advice {
     /// There is nothing to remove, or nothing the state adds.
     Nothing,
     /// These changes.
     Changes(single_changes::Suggestions),
-    /// None can be told, and why.
+    /// None, for this reason.
     Silent(&'static str),
 }
 
-/// How many redundant constraints of a state suggestions are about: its own, or those it adds.
+/// Returns the number of redundant constraints that suggestions are about: those of the state, or those it adds.
 pub fn concerned(s: &StateAnalysis) -> usize {
     match &s.external {
         None => s.redundant,
@@ -32,10 +32,10 @@ pub fn concerned(s: &StateAnalysis) -> usize {
     }
 }
 
-/// What single changes would do in each state, on the geometry that the analysis is about.
+/// Returns the effects of single changes in each state, on the geometry of the analysis.
 ///
 /// # Errors
-/// Where a geometry has no exact image.
+/// Returns an error if a geometry has no exact image.
 pub fn advise(
     mechanism: &Mechanism,
     states: &[StateId],

@@ -9,7 +9,7 @@ use crate::view::claims;
 use crate::view::prelude::*;
 use std::collections::BTreeSet;
 
-/// Motions told at most; JSON has all.
+/// Maximum number of motions in a text; JSON has all.
 const MOTIONS: usize = 6;
 
 impl Analysis<'_> {
@@ -182,13 +182,13 @@ impl State<'_> {
         out.line("  harmful: strains the joints if parts are inaccurate; harmless: contacts share friction");
     }
 
-    /// W, a range where rounded coordinates do not decide.
+    /// Returns W, or a range if rounded coordinates do not decide it.
     pub(crate) fn mobility_figure(&self) -> String {
         let (s, most) = (self.found, self.found.at_most());
         span(s.mobility, most.map_or(s.mobility, |(w, _)| w))
     }
 
-    /// The answer in a few words.
+    /// Returns the answer in a few words.
     pub fn verdict(&self) -> String {
         let least = self.found.redundant;
         if let Some((_, most)) = self.found.at_most() {
@@ -225,14 +225,14 @@ impl State<'_> {
         ])
     }
 
-    /// The finite mobility and how it is known.
+    /// Returns the finite mobility and how it is known.
     pub fn finite(&self) -> String {
         let finite = &self.found.finite;
         let certainty = as_read(self.mechanism, finite.describe());
         format!("finite mobility {}: {certainty}", finite.figure())
     }
 
-    /// Whether Malyshev's formula gives another mobility than the rank.
+    /// Returns true if Malyshev's formula gives another mobility than the rank.
     pub(crate) fn counting_is_wrong(&self) -> bool {
         i64::try_from(self.found.mobility) != Ok(self.found.formula_mobility)
     }
@@ -243,13 +243,13 @@ impl State<'_> {
         faults.map(|f| idle::drive_fault(self.mechanism, f).2)
     }
 
-    /// Idle motions in words, those that read alike told once.
+    /// Returns the idle motions in words, each text once.
     pub(crate) fn idle_motions(&self) -> Vec<String> {
         let words = |i| idle::words(self.mechanism, i);
         idle::told_once(self.found.idle.iter().map(words))
     }
 
-    /// Which method was chosen and why, what it did to the coordinates, and last the primes.
+    /// Returns the chosen method with the reason, its changes of coordinates, and the primes.
     pub(crate) fn method_lines(&self) -> impl Iterator<Item = String> {
         let s = self.found;
         let choice = s.choice.iter().map(|c| format!("method: {c}"));
@@ -311,7 +311,7 @@ impl State<'_> {
         format!("self-stress {}: {what} at {joint} ({})", place + 1, harm(t))
     }
 
-    /// Returns every joint that bears a self-stress with its share, where that is known, the greatest first: "4-5 52 %, 5-1 48 %".
+    /// Returns every joint that bears a self-stress with its share if that is known, the greatest first: "4-5 52 %, 5-1 48 %".
     pub(crate) fn borne(&self, t: &SelfStress) -> String {
         let share = |w: &JointWrench| w.borne.as_ref().map(|b| b.share());
         let mut all: Vec<&JointWrench> = t.joints.iter().collect();

@@ -1,4 +1,4 @@
-//! What structure a mechanism has, for people and as data.
+//! The structure of a mechanism, for people and as data.
 
 use crate::catalog::find::Entry;
 use crate::catalog::neighbours::{BetterFigure, FIGURES, Neighbour};
@@ -11,7 +11,7 @@ use crate::chains::structure::PairStructure;
 use crate::synthesis::recognize::Recognized;
 use crate::view::prelude::*;
 
-/// What a mechanism is as a structure.
+/// The structure of a mechanism.
 #[derive(Debug)]
 pub struct FoundData<'a> {
     found: &'a Recognized,
@@ -22,16 +22,16 @@ pub struct FoundData<'a> {
     motion: Option<(bool, Symmetries)>,
     /// Well-known schemes of this structure, or of its essential part if it is not essential.
     classics: Vec<&'static Classic>,
-    /// What the catalogue that was asked has of it.
+    /// Its entries and neighbours in the given catalogue.
     known: Option<InCatalogue>,
 }
 
-/// What a catalogue has of a structure.
+/// Entries of a catalogue for a structure.
 #[derive(Debug, Clone)]
 pub struct InCatalogue {
     /// The structure itself, or its essential part.
     pub entries: Vec<Entry>,
-    /// What is next to it.
+    /// Structures next to it.
     pub neighbours: Vec<Neighbour>,
 }
 
@@ -210,7 +210,7 @@ impl<'a> FoundData<'a> {
     }
 }
 
-/// How a structure is symmetric: with a screw of both threads it is a mirror image where with a pinion it is one by half a turn.
+/// Returns the symmetries of a structure: a screw of both threads gives a mirror image if a pinion gives one by half a turn.
 fn symmetries(subject: &Subject<'_>, roles: &Roles, threaded: bool) -> Symmetries {
     match subject.symmetries(roles) {
         of_pinion if threaded => Symmetries {

@@ -13,7 +13,7 @@ use std::path::Path;
 /// A row of a table by its columns.
 type Row = Map<String, Value>;
 
-/// What a catalogue knows of a structure.
+/// Rows of a catalogue about a structure.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct StructureData {
     /// The row of `structures`, or of `drawn`.
@@ -26,7 +26,7 @@ pub struct StructureData {
     pub layout: Option<Row>,
     /// The row of `strokes`; `None` where it has no layout.
     pub stroke: Option<Row>,
-    /// The row of `planes`; `None` where it has no layout, or one that nothing is said of.
+    /// The row of `planes`; `None` without a layout, or if no planes are known.
     pub planes: Option<Row>,
     /// The rows of `counts`.
     pub counts: Vec<Row>,
@@ -53,7 +53,7 @@ impl StructureData {
     /// Reads all that there is.
     ///
     /// # Errors
-    /// Where the database cannot be read.
+    /// Returns an error if the database cannot be read.
     pub fn read(store: &Store, id: &str) -> Result<StructureData, StoreError> {
         let maps = |sql: &str| -> Result<Vec<Row>, StoreError> {
             let (names, rows) = store.query(sql, Some(id))?;
@@ -316,10 +316,10 @@ impl StructureData {
     }
 }
 
-/// What a catalogue holds, for whoever has just built it.
+/// Returns the contents of a catalogue that was just built.
 ///
 /// # Errors
-/// Where the database cannot be read.
+/// Returns an error if the database cannot be read.
 pub fn built_text(
     store: &Store,
     file: &Path,

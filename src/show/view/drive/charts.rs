@@ -26,7 +26,7 @@ pub fn motion(d: &Drive<'_>) -> Option<String> {
     Some(csv::table(&["time", "ax", "ay", "az"], rows))
 }
 
-/// Both charts with the names of their files; none without a bar.
+/// Returns both charts with the names of their files. Empty without a bar.
 pub fn charts(d: &Drive<'_>) -> Vec<(String, Chart)> {
     let Some(found) = d.design else {
         return Vec::new();

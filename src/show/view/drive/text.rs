@@ -10,7 +10,7 @@ use crate::view::claims::{self, about};
 use crate::view::drive::Drive;
 use crate::view::prelude::*;
 
-/// Rows of the programme shown before the rest is left out.
+/// Maximum number of rows of the programme in a text.
 const SHOWN: usize = 24;
 
 /// Returns the report, fitted to a terminal of `width` columns if one is given.

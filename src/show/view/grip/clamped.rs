@@ -1,5 +1,4 @@
-//! What a grip loads its mechanism with: one value from which text and JSON are made. Forces in N on the part, in the
-//! grip's own axes.
+//! Loads of a grip on its mechanism, as text and JSON. Forces in N on the part, in the grip's own axes.
 
 use crate::grip::clamped;
 use crate::grip::clamping::{DiameterRow, Hardest};
@@ -17,7 +16,7 @@ pub struct Clamped<'a> {
     pub grip: &'a Gripping,
     /// The part.
     pub row: &'a DiameterRow,
-    /// The mechanism round it.
+    /// The mechanism that holds the part.
     pub found: &'a clamped::Clamped,
 }
 
@@ -90,8 +89,8 @@ impl<'a> NotHeld<'a> {
 }
 
 impl Clamped<'_> {
-    /// Returns the contacts as joints of the mechanism: the joint, the link that touches, and the force on the part; nothing where it is
-    /// not held.
+    /// Returns the contacts as joints of the mechanism: the joint, the link that touches, and the force on the part. Returns `None` if it
+    /// is not held.
     fn contacts(&self) -> Option<impl Iterator<Item = (&str, &str, &ContactForce)>> {
         let (g, held) = (self.grip, self.row.hardest.as_ref()?.held()?);
         let each = g.contacts.iter().enumerate().zip(&held.forces);
@@ -129,7 +128,7 @@ impl Clamped<'_> {
     }
 
     /// Returns the same for people, fitted to a terminal of `width` columns if one is given; `flat` is true if forces across the
-    /// plane of motion are left out below.
+    /// plane of motion are omitted below.
     pub fn text(&self, flat: bool, width: Option<u16>) -> String {
         let (g, mut out) = (self.grip, Report::new(width));
         if let (Some(moment), Some(contacts)) = (self.row.drive(), self.contacts()) {

@@ -7,7 +7,7 @@ use crate::model::mechanism::LengthUnit;
 use crate::view::grip::text::number;
 use crate::view::prelude::*;
 
-/// Rows shown before the rest is left out.
+/// Maximum number of rows in a text.
 const SHOWN: usize = 40;
 
 /// A motion, step by step.

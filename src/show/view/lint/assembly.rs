@@ -1,4 +1,4 @@
-//! What is said of joints of CAD assemblies besides: misfits and other types.
+//! Joints of CAD assemblies: misfits and other types.
 
 use crate::geom::vector::Vector;
 use crate::redundancy::release::Release;
@@ -12,12 +12,12 @@ pub struct TypeChange {
     pub joint: String,
     /// Its type, as the CAD program calls it.
     pub from: String,
-    /// What it becomes.
+    /// Its new type.
     pub to: String,
 }
 
 impl TypeChange {
-    /// What a release makes of a joint of an assembly.
+    /// Returns the type of a joint of an assembly after a release.
     pub(super) fn of(m: &Mechanism, origin: &Origin, release: &Release) -> Option<TypeChange> {
         let Release::Freedom {
             joint,
@@ -30,7 +30,7 @@ impl TypeChange {
         TypeChange::at(m, origin, joint, &[(slides, direction)])
     }
 
-    /// What more freedoms make of one; none where it is no assembly, or has no such type.
+    /// Returns its type with more freedoms. Returns `None` if the file is not an assembly, or there is no such type.
     pub fn at(
         m: &Mechanism,
         origin: &Origin,

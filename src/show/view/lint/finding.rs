@@ -1,4 +1,4 @@
-//! A redundant constraint of a robot description in words, and a file that nothing can be said of but why.
+//! A redundant constraint of a robot description in words, and files that were skipped.
 
 use super::assembly::{Misfit, TypeChange};
 use crate::format::brief;
@@ -18,7 +18,7 @@ const JOINTS: usize = 8;
 /// A redundant constraint.
 #[derive(Debug, Serialize)]
 pub struct Finding {
-    /// File, line and column of the element that the constraint is of; nothing where a file beside it says so.
+    /// File, line and column of the element of the constraint. `None` if it comes from a separate file.
     pub file: Option<String>,
     /// Line, from 1.
     pub line: Option<usize>,
@@ -32,25 +32,25 @@ pub struct Finding {
     pub duplicates: Vec<String>,
     /// The contours that its self-stress goes round.
     pub contours: Vec<String>,
-    /// What an inexact part makes.
+    /// Effect of an inaccurate part.
     pub assembly: String,
     /// How far the two frames of its joint are apart, where a CAD assembly places both.
     pub misfit: Option<Misfit>,
     /// The cheapest releases that remove it.
     pub remedies: Vec<String>,
-    /// Whether it is redundant over the motion, as far as is known: else at this pose only, which is no fault.
+    /// True if it is redundant over the motion, as far as is known. Otherwise it is at this pose only, which is harmless.
     pub lasts: bool,
     /// All that in a sentence.
     pub message: String,
 }
 
-/// A mechanism and what it holds twice, to be put in words.
+/// A mechanism and its duplicate constraints, to be described.
 pub(super) struct LintWords<'a> {
     pub(super) m: &'a Mechanism,
     pub(super) found: &'a HeldTwice,
 }
 
-/// What a constraint duplicates, in a sentence; `row` is that of a joint where `a_row` says so.
+/// Returns the duplicates of a constraint in a sentence; `a_row` is empty if `row` is not of a joint.
 fn message(
     constraint: &str,
     [a_row, row, assembly]: [&str; 3],
@@ -80,7 +80,7 @@ impl LintWords<'_> {
         &self.m.joints[j].id
     }
 
-    /// A finding of what a row of a joint or a coupling holds twice; `lasts` where it does so over the motion.
+    /// Returns the finding of a duplicate row; `lasts` is true if it is redundant over the motion.
     pub(super) fn finding(&self, d: &Duplicate, lasts: bool, origin: Option<&Origin>) -> Finding {
         let (constraint, [a_row, row, assembly]) = self.constraint(d.row);
         let joints = d.by.iter().map(|&j| self.joint(j).to_owned());
@@ -197,8 +197,8 @@ fn name(d: Vector) -> String {
     }
 }
 
-/// A file that could not be looked at, or has nothing to be looked at: told in every format, so that those that can be looked at are not
-/// lost with them.
+/// A file that could not be examined, or has nothing to examine. Every format lists it, so that the results of other files are not
+/// lost.
 #[derive(Debug, Clone, Serialize)]
 pub struct PassedOver {
     /// Name of the file.
@@ -236,7 +236,7 @@ impl PassedOver {
     }
 }
 
-/// Tells of them beside the findings in JSON; nothing where there are none.
+/// Adds skipped files to the JSON of findings, if there are any.
 pub(super) fn in_json(out: &mut Value, all: &[PassedOver]) {
     if !all.is_empty() {
         out["passed_over"] = json!(all);

@@ -7,7 +7,7 @@ use crate::view::reactions::couplings::unit;
 use crate::view::reactions::stroke::ReactionsOverStroke;
 use std::collections::BTreeMap;
 
-/// Most lines: more cannot be told apart.
+/// Maximum number of lines: more cannot be distinguished.
 const LINES: usize = 10;
 
 impl ReactionsOverStroke<'_> {

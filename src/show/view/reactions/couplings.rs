@@ -1,4 +1,4 @@
-//! What couplings pass from joint to joint, beside the reactions of the joints.
+//! Efforts that couplings transmit from joint to joint.
 
 use crate::model::joint_type::{Coupling, Freedom};
 use crate::statics::reactions::CouplingReaction;

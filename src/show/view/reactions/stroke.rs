@@ -50,7 +50,7 @@ impl<'a> ReactionsOverStroke<'a> {
 
     /// Returns one joint and position a line.
     pub fn csv(&self) -> String {
-        let heads = [&["drive"], &HEADS[..]].concat();
+        let heads = ["drive"].into_iter().chain(HEADS.split(',')).collect_vec();
         let solved = self.solved().collect_vec();
         let rows = solved.iter().flat_map(|(at, r)| {
             r.rows()

@@ -1,4 +1,4 @@
-//! The head of a search for people: how many variants there are, how that was checked, and their mobilities.
+//! Head of a search for people: how many variants there are, how that was checked, and their mobilities.
 
 use crate::score::request::List;
 use crate::search::Search;
@@ -11,7 +11,7 @@ use num_bigint::BigUint;
 use num_traits::{One, Zero};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rows of mobilities told at most; JSON and the page have them all.
+/// Maximum number of mobilities in a text; JSON and the page have them all.
 const MOBILITIES: usize = 12;
 
 /// The heading of a list of ideas.
@@ -170,7 +170,7 @@ fn determinate(outcome: &Outcome) -> String {
     stopped_early::number(&outcome.determinate.total, exact, estimate)
 }
 
-/// The counts by mobility; nothing where there are none.
+/// Returns the counts by mobility. Empty if there are none.
 fn by_mobility(outcome: &Outcome, width: Option<u16>) -> String {
     let exact = outcome.determinate.by_mobility.keys();
     let exact = exact.chain(outcome.admissible.by_mobility.keys()).copied();

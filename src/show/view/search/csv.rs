@@ -14,14 +14,7 @@ use std::io::{self, Write};
 use std::iter;
 
 /// Columns before the joints.
-const FIGURES: [&str; 6] = [
-    "position",
-    "cost",
-    "mobility",
-    "redundant",
-    "external_redundant",
-    "changes",
-];
+const FIGURES: &str = "position,cost,mobility,redundant,external_redundant,changes";
 /// Columns after them.
 const OPINIONS: [&str; 3] = ["conditioning", "agree", "lucky"];
 /// Columns at the end.
@@ -79,7 +72,7 @@ pub fn write(
 fn rows(out: &mut dyn Write, outcome: &Outcome, variants: &mut Variants<'_>) -> io::Result<()> {
     let search = &outcome.search;
     let joints = columns(search);
-    let mut heads: Vec<&str> = FIGURES.to_vec();
+    let mut heads: Vec<&str> = FIGURES.split(',').collect();
     let names = joints
         .iter()
         .map(|&(_, j)| search.mechanism.joints[j].id.as_str());
@@ -125,7 +118,7 @@ fn cells_of(search: &Search, joints: &[(usize, JointId)]) -> Vec<(usize, Vec<Str
 /// The lines of some variants, one after another.
 struct Lines {
     text: String,
-    /// The cells of all choices: most of a line is the same few words again and again.
+    /// The cells of all choices, because lines repeat the same few words.
     chosen: Vec<(usize, Vec<String>)>,
     /// The last cost, which is often that of the next variant, too.
     cost: (i64, String),

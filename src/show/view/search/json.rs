@@ -22,10 +22,10 @@ use num_traits::Zero;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-/// Tells each variant of a list with its data until that fails; ideas with why they help.
+/// Calls `tell` on each variant of a list with its data until that fails. Ideas have their reasons.
 ///
 /// # Errors
-/// Where telling fails.
+/// Returns an error if `tell` does.
 pub fn each<'a, E>(
     outcome: &Outcome,
     mut variants: impl Iterator<Item = Variant<'a>>,
@@ -221,8 +221,8 @@ fn measured((why, verdicts): &LooksRounded) -> Value {
     })
 }
 
-/// Returns what follows variants that were given, as far as it went; `seconds` is how long all of it took. Where there is no variant it
-/// says what easing would leave, and what stands in the way of all.
+/// Returns the data after the variants; `seconds` is the time of the whole run. Without any variant it has the numbers for eased
+/// conditions, and the reasons why there is none.
 pub(crate) fn tail(
     outcome: &Outcome,
     variants: &Variants<'_>,

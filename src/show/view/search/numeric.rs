@@ -38,7 +38,7 @@ pub(crate) fn mobilities(found: &AtTolerance) -> BTreeSet<i64> {
     counts.flat_map(|c| c.by_mobility.keys().copied()).collect()
 }
 
-/// What is said of a search by singular values, a sentence a line; none of an exact one.
+/// Returns the remarks on a search by singular values, a sentence a line. Empty for an exact one.
 pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let Some(found) = &outcome.numeric else {
         return Vec::new();

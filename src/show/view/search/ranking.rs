@@ -5,10 +5,10 @@ use crate::score::evaluation::load_cases::Gripped;
 use crate::score::outcome::ranking::{Ranked, RankedPool};
 use crate::view::prelude::*;
 
-/// Reasons told at most.
+/// Maximum number of reasons.
 const REASONS: usize = 10;
 
-/// What variants are ranked by, for the head of a list.
+/// Returns the terms of a ranking, for the head of a list.
 pub(crate) fn head(p: &RankedPool) -> String {
     let terms = match p.ranking.order {
         Order::Weighted => p
@@ -58,7 +58,7 @@ fn gripped(m: &Mechanism, g: &Gripped) -> String {
     )
 }
 
-/// What a list of ranked variants rests on, a line each.
+/// Returns the remarks on a list of ranked variants, a line each.
 pub(crate) fn notes(m: &Mechanism, p: &RankedPool) -> Vec<String> {
     let n = |x: usize| grouped(x);
     let poses = match p.poses {
@@ -153,7 +153,7 @@ pub(crate) fn cells(p: &RankedPool, r: &Ranked) -> Vec<String> {
     out
 }
 
-/// Returns the ranking as data. What is missing to a proof are sums, a cost, and a count as text, since it may be large.
+/// Returns the ranking as data. A missing proof is described by sums, a cost, and a count as text, since it may be large.
 pub(crate) fn data(m: &Mechanism, p: &RankedPool) -> Value {
     let grip =
         |g: &Gripped| json!({ "state": m.states[g.state], "held": g.held, "not_held": g.lost });

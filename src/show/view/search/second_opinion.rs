@@ -52,7 +52,7 @@ fn contradicted(outcome: &Outcome, c: &Contradiction) -> String {
     )
 }
 
-/// Why counts are not exact though everything was looked at, a sentence a line; nothing where they are.
+/// Returns the reasons why the counts of a complete search are not exact, a sentence a line. Empty if they are.
 pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     let read = with_assumptions(&outcome.search.mechanism);
     let mut out: Vec<String> = read
@@ -99,7 +99,7 @@ pub(crate) fn against(outcome: &Outcome) -> Vec<String> {
     out
 }
 
-/// What the second opinion is, a sentence a line; nothing where none was needed.
+/// Returns the second opinion, a sentence a line. Empty if none was needed.
 pub(crate) fn lines(outcome: &Outcome) -> Vec<String> {
     let mut out = against(outcome);
     if let Some(said) = outcome.second.as_ref().filter(|s| s.agrees()) {

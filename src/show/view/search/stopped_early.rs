@@ -1,4 +1,4 @@
-//! A search that ended before everything was looked at: what is known all the same.
+//! Results of a search that ended early.
 
 use crate::search::answer::estimate::{Drawn, Estimate};
 use crate::search::check::singular_values::Summary;
@@ -21,8 +21,7 @@ pub(crate) fn stopped(outcome: &Outcome) -> Option<String> {
     Some(format!("{why}: counts are lower bounds{list}"))
 }
 
-/// A number of variants as it is told: itself where it is exact, else at least that many, and at most how many and about how many where
-/// that is known.
+/// Formats a number of variants. One that is not exact is a lower bound, with an upper bound and an estimate if they are known.
 pub(crate) fn number(counted: &BigUint, exact: bool, estimate: Option<&Estimate>) -> String {
     let own = grouped(counted);
     match estimate {
@@ -59,7 +58,7 @@ pub(crate) fn estimated(outcome: &Outcome) -> Option<String> {
     ))
 }
 
-/// What a larger bound would cost, where one ended the search: nodes take time and memory in proportion.
+/// Returns the price of a larger budget, if one ended the search: time and memory grow in proportion to nodes.
 pub(crate) fn more(outcome: &Outcome) -> Option<String> {
     match outcome.stop {
         Stop::NodeBudget => {

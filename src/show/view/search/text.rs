@@ -14,7 +14,7 @@ use crate::view::terminal::next_commands::{self, NextCommand, file_name};
 use num_traits::Zero;
 use std::io;
 
-/// Variants a table holds at most.
+/// Maximum number of variants of a table.
 const BLOCK: usize = 1000;
 
 /// Writes an outcome with its variants as they come, the remarks, and what to do next. `file` is the argument that named the mechanism.
@@ -106,7 +106,7 @@ fn order(outcome: &Outcome) -> String {
     }
 }
 
-/// What is to be said of the list as a whole, then the footnotes.
+/// Writes the remarks on the whole list, then the footnotes.
 fn write_notes(
     out: &mut dyn io::Write,
     summary: &Summary,
@@ -163,7 +163,7 @@ pub(crate) fn note(v: &Variant<'_>) -> Option<String> {
     }
 }
 
-/// Footnotes told at most.
+/// Maximum number of footnotes.
 const NOTES: usize = 20;
 
 /// What second opinions and other poses say, a line each.
@@ -194,7 +194,7 @@ fn marked(mut notes: Vec<String>) -> Vec<String> {
     notes
 }
 
-/// What to do after a search: look at the first variant given, or ease a condition. `file` is the search's own, as
+/// Returns the commands to suggest after a search that found variants. `file` is the search's own, as
 /// are the flags, so that the commands are about the same list.
 fn next_of_some(outcome: &Outcome, changed: bool, file: &str, verbose: bool) -> Vec<NextCommand> {
     let flags = &flags(outcome);

@@ -1,4 +1,4 @@
-//! Why ideas help, in words of the shop, and as data.
+//! Reasons why ideas help, in workshop terms and as data.
 
 use crate::format::brief;
 use crate::score::evaluation::terms::Peak;
@@ -8,12 +8,12 @@ use crate::terms::PairWords;
 use crate::view::prelude::*;
 use std::collections::BTreeMap;
 
-/// Ideas that a text says why of: the first. Data have all.
+/// Maximum number of ideas explained in a text; JSON has all.
 pub(super) const TOLD: usize = 3;
 /// Loads below this part of the largest are not told.
 const RESIDUAL: f64 = 1e-9;
 
-/// What says why ideas help.
+/// Describes why ideas help.
 pub(crate) struct Teller<'w> {
     m: &'w Mechanism,
     words: BTreeMap<String, PairWords>,
@@ -22,7 +22,7 @@ pub(crate) struct Teller<'w> {
 }
 
 impl<'w> Teller<'w> {
-    /// Returns what says so of the ideas of a search.
+    /// Returns the describer of the ideas of a search.
     pub(crate) fn new(outcome: &'w Outcome, whys: &Whys<'_>) -> Teller<'w> {
         let under = if whys.is_side_load() {
             format!("{SIDE_LOAD} N on each output, along its hinge")
@@ -67,7 +67,7 @@ impl<'w> Teller<'w> {
         &self.m.joints[j].id
     }
 
-    /// "rod 5"; the name alone where it says so itself.
+    /// Returns a part such as "rod 5", or its name alone if it contains the word.
     fn part(&self, l: &LetGo) -> String {
         let part = &self.m.links[l.part].id;
         match (l.is_rod, part.to_lowercase().contains("rod")) {
@@ -83,7 +83,7 @@ impl<'w> Teller<'w> {
         pair.hardware.first().map(String::as_str)
     }
 
-    /// What is said of an idea, line by line: of what, and that; nothing where it lets nothing go.
+    /// Returns the remarks on an idea as pairs of subject and text. Empty if it frees nothing.
     fn rows(&self, w: &Why) -> Vec<(String, String)> {
         if w.lets.is_empty() {
             return Vec::new();
@@ -135,7 +135,7 @@ fn removed(of: &[Removed]) -> String {
     of.iter().enumerate().map(one).join(", ")
 }
 
-/// What a part may do: "tilt both ways and float along its axis".
+/// Returns the motions that a part gains: "tilt both ways and float along its axis".
 fn motions(l: &LetGo) -> String {
     let many = |n: usize, one: &str, two: &str| match n {
         0 => None,
@@ -156,7 +156,7 @@ fn motions(l: &LetGo) -> String {
     }
 }
 
-/// The first ideas with what each lets go, its hardware, what it removes, what stays, and what joints bear.
+/// Returns the first ideas with the motions freed, hardware, removed constraints, unchanged joints and loads.
 pub(crate) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
     let mut out = String::new();
     let first = &ideas[..ideas.len().min(TOLD)];
@@ -171,7 +171,7 @@ pub(crate) fn text(outcome: &Outcome, ideas: &[&Assignment]) -> String {
     out
 }
 
-/// What is said of each of some ideas, line by line: of what, and that.
+/// Returns the remarks on each of some ideas as pairs of subject and text.
 pub(crate) fn told(outcome: &Outcome, ideas: &[&Assignment]) -> Vec<Vec<(String, String)>> {
     let whys = Whys::new(outcome);
     let (teller, mut why) = (Teller::new(outcome, &whys), whys.teller());

@@ -280,7 +280,7 @@ impl Charts<'_, '_> {
     }
 }
 
-/// What a stability chart shows: title, subtitle, axis.
+/// Returns title, subtitle and axis of a stability chart.
 fn labels(failure: Failure) -> (&'static str, &'static str, &'static str) {
     match failure {
         Failure::ParallelRods => (

@@ -63,8 +63,8 @@ fn plan(s: &StaticsData<'_>, i: usize) -> Option<(String, Polygons)> {
     Some((format!("force-plan-{name}"), plans))
 }
 
-/// The weights and the inertia forces of the group, each added up on its own, since beside forces from outside they are too
-/// short to be seen.
+/// Returns the weights and the inertia forces of the group, each on its own, because they are too short to be seen next to
+/// external forces.
 fn own_loads(g: &GroupSolutions, unit: f64) -> PanelPair {
     let of = |source, title: &str, sum: &str| {
         let mut forces = group_loads(g);

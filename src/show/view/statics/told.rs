@@ -80,7 +80,7 @@ impl<'a> ToldStatics<'a> {
         }
     }
 
-    /// The reactions round the part of a row.
+    /// The reactions of a mechanism that holds the part of a row.
     pub fn round_a_part(
         g: &'a Gripping,
         row: &'a DiameterRow,

@@ -98,12 +98,12 @@ fn render(header: &[&str], rows: Vec<Vec<String>>, widths: Option<Vec<usize>>) -
 /// Spaces on both sides of a cell.
 const PADDING: usize = 2;
 
-/// What a table of columns so wide takes: a margin on the left, a gap between columns.
+/// Returns the width of a table with such columns, a margin on the left and gaps between columns.
 fn taken(widths: &[usize]) -> usize {
     widths.iter().map(|w| w + PADDING + 1).sum()
 }
 
-/// How wide a column is, and how narrow it may be: its longest word, where that is not wider than words may be.
+/// Width of a column, and its minimum: the longest word, up to the limit for words.
 struct ColumnWidth {
     most: usize,
     least: usize,
@@ -126,7 +126,7 @@ impl ColumnWidth {
     }
 }
 
-/// The columns in parts that fit, the first column in each.
+/// Splits the columns into parts that fit, with the first column in each.
 fn parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
     let mut out: Vec<Vec<usize>> = vec![Vec::new()];
     for c in 0..columns.len() {
@@ -141,7 +141,7 @@ fn parts(columns: &[ColumnWidth], width: usize) -> Vec<Vec<usize>> {
     out
 }
 
-/// Widths of the columns such that all fit, if they can: the widest gives way first, none below its longest word.
+/// Returns widths such that all columns fit, if they can: the widest gives way first, none below its longest word.
 fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
     let mut widths: Vec<usize> = columns.iter().map(|c| c.most).collect();
     while taken(&widths) > width {
@@ -155,7 +155,7 @@ fn widths(columns: &[&ColumnWidth], width: usize) -> Vec<usize> {
     widths
 }
 
-/// A text with the lines that are too long broken between words, the rest of them set in by two more.
+/// Breaks lines that are too long between words, and indents the rest of them by two more.
 pub fn fit(text: &str, width: Option<u16>) -> String {
     let Some(width) = width.map(usize::from) else {
         return text.to_owned();
@@ -194,7 +194,7 @@ fn wrapped(line: &str, width: usize) -> String {
     out
 }
 
-/// Thousands of newtons and the like: the factor to divide by and the prefix, for values up to `greatest`.
+/// Returns the factor to divide by and the unit prefix for values up to `greatest`.
 pub(crate) fn prefix(greatest: f64) -> (f64, &'static str) {
     match greatest {
         x if x >= 1e7 => (1e6, "M"),

@@ -1,4 +1,4 @@
-//! What to do next: commands, with what each is for.
+//! Next commands, each with its purpose.
 
 use crate::score::request::{JointOptions, List, Request};
 use crate::search::question::conditions::Symmetry;
@@ -9,21 +9,21 @@ use std::fmt::Display;
 /// A command and what it gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NextCommand {
-    /// The command, ready to be typed; a sentence where no command will do.
+    /// The command, ready to be typed, or a sentence if no command is enough.
     pub command: String,
-    /// What it gives.
+    /// Its result.
     pub gives: String,
 }
 
 impl NextCommand {
-    /// The command that mends a robot description in the owner's own file.
+    /// Returns the command that fixes a robot description in a copy of the file.
     pub fn mend(file: &str, more: &str, gives: &str) -> NextCommand {
         let (stem, ending) = file.rsplit_once('.').unwrap_or((file, "xml"));
         let out = format!("-o {}", word(&format!("{stem}-fixed.{ending}")));
         NextCommand::new("fix", file, format!("{more} {out}").trim(), gives)
     }
 
-    /// A command of this program about a file.
+    /// Returns a command of this program about a file.
     pub fn new(command: &str, file: &str, more: &str, gives: &str) -> NextCommand {
         let more = if more.is_empty() {
             String::new()
@@ -37,8 +37,8 @@ impl NextCommand {
     }
 }
 
-/// The steps as the end of a report, fitted to a terminal of `width` columns but for the commands: a command broken in two
-/// could not be copied. Nothing where there are none.
+/// Returns the steps as the end of a report, fitted to a terminal of `width` columns except for the commands: a command broken in two
+/// could not be copied. Empty if there are none.
 pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
     if steps.is_empty() {
         return String::new();
@@ -53,7 +53,7 @@ pub fn text(steps: &[NextCommand], width: Option<u16>) -> String {
     format!("\n  Next:\n{}", lines.collect_vec().concat())
 }
 
-/// The flags that make a search's list what it is, as they are typed: those of `search`, `draw` and `export` are the same.
+/// Returns the options that reproduce the list of a search, as they are typed: those of `search`, `draw` and `export` are the same.
 pub fn flags(mechanism: &Mechanism, r: &Request) -> String {
     let joints = |rule: &JointOptions| match rule.names.as_slice() {
         [] => rule.joint.clone(),
@@ -118,7 +118,7 @@ pub(crate) fn flag(option: &str, value: impl Display) -> String {
     format!("--{option} {value}").trim_end().to_owned()
 }
 
-/// A word as a shell takes it; standard input cannot be read again, so it is FILE.
+/// Quotes a word for a shell; standard input cannot be read again, so it is FILE.
 pub fn word(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
     match text {
@@ -128,12 +128,12 @@ pub fn word(text: &str) -> String {
     }
 }
 
-/// A file name made of a mechanism's name.
+/// Returns a file name for a mechanism's name.
 pub fn file_name(name: &str, ending: &str) -> String {
     word(&format!("{}.{ending}", stem(name)))
 }
 
-/// The same without its ending, as it is.
+/// Returns the same without its ending.
 pub fn stem(name: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     let stem: String = name
