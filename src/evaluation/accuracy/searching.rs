@@ -209,7 +209,10 @@ fn bracket(outcome: &Outcome) -> Option<Bracket> {
     let real = |n: &BigUint| n.to_f64().unwrap_or(f64::INFINITY);
     let counted = real(&outcome.admissible.total);
     let (certain, likely) = match outcome.estimates()[1] {
-        _ if outcome.stop == Stop::Exhausted => ([counted; 2], [counted; 2]),
+        // The diagram of the determinate variants may be stopped alone.
+        _ if outcome.diagrams.as_ref()?.admissible.stop == Stop::Exhausted => {
+            ([counted; 2], [counted; 2])
+        }
         Some(estimate) => {
             let most = estimate
                 .at_most
