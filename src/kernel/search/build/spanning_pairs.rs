@@ -63,8 +63,10 @@ impl Bases {
             .flat_map(|&at| rows.iter().map(move |row| self.field.neg(row[at])));
         let at_pivots: Vec<Residue> = at_pivots.collect();
         let mut images = Vec::with_capacity(self.vectors.len() * open.len());
+        let mut there = Vec::with_capacity(pivots.len());
         for vector in &self.vectors {
-            let there: Vec<Residue> = pivots.iter().map(|&p| vector[p]).collect();
+            there.clear();
+            there.extend(pivots.iter().map(|&p| vector[p]));
             images.extend(open.iter().enumerate().map(|(form, &at)| {
                 let form = &at_pivots[form * pivots.len()..][..pivots.len()];
                 self.field.add(vector[at], self.field.dot(form, &there))
@@ -101,13 +103,11 @@ impl Walk<'_> {
     fn follow(&mut self, nodes: &[Rows], row: usize, forms: &[Residue]) {
         let missing = forms.len() / self.width - 1;
         let rows = nodes[0].0.len();
-        let is_done = missing == 0 && !self.of.keeps;
-        if is_done || row == rows {
-            let complete = nodes.iter().filter(|_| missing == 0);
-            complete.for_each(|&(_, node)| put(&mut self.found, node));
+        if rows - row < missing {
             return;
         }
-        if rows - row < missing {
+        if row == rows || missing == 0 && !self.of.keeps {
+            self.put(nodes);
             return;
         }
         for alike in nodes.chunk_by(|(a, _), (b, _)| a[row] == b[row]) {
@@ -121,9 +121,10 @@ impl Walk<'_> {
                 // Kept links would move alone.
                 None if self.of.keeps && value(missing) != 0 => {}
                 None => self.follow(alike, row + 1, forms),
-                Some(_) if missing > 1 && row + 1 == rows => {}
+                // Nothing is left to be spanned, or to be moved by further rows.
+                Some(_) if missing == 1 && (row + 1 == rows || !self.of.keeps) => self.put(alike),
                 Some(own) => {
-                    let left = self.without(forms, own, &image);
+                    let left = self.without(forms, own, &self.images[image]);
                     self.follow(alike, row + 1, &left);
                 }
             }
@@ -131,22 +132,30 @@ impl Walk<'_> {
     }
 
     /// Returns the other forms, each with a multiple of one taken off so that it is zero on a vector.
-    fn without(
-        &self,
-        forms: &[Residue],
-        own: usize,
-        image: &std::ops::Range<usize>,
-    ) -> Vec<Residue> {
+    fn without(&self, forms: &[Residue], own: usize, image: &[Residue]) -> Vec<Residue> {
         let f = self.of.field;
-        let image = &self.images[image.clone()];
-        let of = |form: usize| &forms[form * self.width..][..self.width];
-        let scale = f.dot(of(own), image);
-        let others = (0..forms.len() / self.width).filter(|&form| form != own);
-        let anew = others.flat_map(|form| {
-            let value = f.dot(of(form), image);
-            let both = of(form).iter().zip(of(own));
-            both.map(move |(&x, &y)| f.sub(f.mul(scale, x), f.mul(value, y)))
-        });
-        anew.collect()
+        let by = &forms[own * self.width..][..self.width];
+        let scale = f.dot(by, image);
+        let mut left = Vec::with_capacity(forms.len() - self.width);
+        for (number, form) in forms.chunks_exact(self.width).enumerate() {
+            let value = f.dot(form, image);
+            if number == own {
+                continue;
+            }
+            if value == 0 {
+                left.extend_from_slice(form);
+            } else {
+                let both = form.iter().zip(by);
+                left.extend(both.map(|(&x, &y)| f.sub(f.mul(scale, x), f.mul(value, y))));
+            }
+        }
+        left
+    }
+
+    /// Puts nodes to those found.
+    fn put(&mut self, nodes: &[Rows]) {
+        for &(_, node) in nodes {
+            put(&mut self.found, node);
+        }
     }
 }
