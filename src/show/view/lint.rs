@@ -42,7 +42,7 @@ pub struct Lint {
     pub certainty_kind: &'static str,
     /// The line.
     pub certainty: String,
-    /// Where it holds, in a word: proven, followed, seen, rigid, pose or unknown. `None` if σ = 0.
+    /// Range of poses in which it holds, in a word: proven, followed, seen, rigid, pose or unknown. `None` if σ = 0.
     pub over_motion_kind: Option<&'static str>,
     /// In words.
     pub over_motion: Option<String>,

@@ -49,7 +49,7 @@ fn open_components(open: &[bool; 6]) -> Vec<&'static str> {
 }
 
 impl<'a> Reactions<'a> {
-    /// The reactions of a state.
+    /// Describes the reactions of a state.
     pub fn new(of: &'a Mechanism, state: StateId, found: &'a Solution) -> Self {
         Reactions {
             of,

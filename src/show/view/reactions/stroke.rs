@@ -18,7 +18,7 @@ pub struct ReactionsOverStroke<'a> {
 }
 
 impl<'a> ReactionsOverStroke<'a> {
-    /// The reactions of a state.
+    /// Describes the reactions of a state.
     pub fn new(of: &'a Mechanism, state: StateId, found: &'a Cycle) -> Self {
         ReactionsOverStroke { of, state, found }
     }
@@ -167,7 +167,7 @@ impl<'a> ReactionsOverStroke<'a> {
         out.line("");
     }
 
-    /// Names contacts that would have to do what faces cannot.
+    /// Adds contacts that would have to do what faces cannot.
     fn write_contacts(
         &self,
         out: &mut Report,

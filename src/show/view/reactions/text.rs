@@ -124,7 +124,7 @@ impl Reactions<'_> {
         out.line("");
     }
 
-    /// Names contacts that would have to do what faces cannot.
+    /// Adds contacts that would have to do what faces cannot.
     fn write_refuted(&self, out: &mut Report) {
         let words = |c: &ContactForce| {
             let (unit, prefix) = prefix(c.normal.abs().max(c.along));

@@ -261,7 +261,7 @@ fn minimal(outcome: &Outcome) -> Option<String> {
     ))
 }
 
-/// "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
+/// Returns the conditions in a searched state: "hold a in state clamped" and "have external σ ≤ 2, harmful ≤ 0 in it"; of `one` variant, "holds" and "has".
 pub(crate) fn in_state(search: &Search, one: bool) -> Vec<String> {
     let Some(s) = search.conditions.state else {
         return Vec::new();

@@ -101,13 +101,13 @@ pub fn write_lines(
     Ok(())
 }
 
-/// Counts by a property.
+/// Returns counts by a property.
 fn by<K: ToString>(counts: &BTreeMap<K, BigUint>) -> Value {
     let text = |(k, n): (&K, &BigUint)| (k.to_string(), n.to_string());
     counts.iter().map(text).collect()
 }
 
-/// Counts by W, each by number of changes.
+/// Returns counts by W, each by number of changes.
 fn by_both(counts: &BTreeMap<(i64, u32), BigUint>) -> Value {
     let mut nested: BTreeMap<i64, BTreeMap<u32, String>> = BTreeMap::new();
     for ((w, c), n) in counts {
@@ -116,13 +116,13 @@ fn by_both(counts: &BTreeMap<(i64, u32), BigUint>) -> Value {
     json!(nested)
 }
 
-/// Counts by cost, the cheapest first.
+/// Returns counts by cost, the cheapest first.
 fn by_cost(counts: &BTreeMap<i64, BigUint>) -> Value {
     let text = |(c, n): (&i64, &BigUint)| (cost(*c), n.to_string());
     counts.iter().map(text).collect()
 }
 
-/// The size of a diagram.
+/// Returns the size of a diagram.
 fn size(diagram: Option<&Diagram>) -> Value {
     json!({
         "largest_layer": diagram.map(|d| d.largest_layer),
@@ -198,7 +198,7 @@ pub fn search(outcome: &Outcome) -> Value {
     })
 }
 
-/// What singular values say of coordinates that look rounded; `meant` is the mechanism searched: "as written", "snapped", "near",
+/// Returns the ranks by singular values of coordinates that look rounded; `meant` is the mechanism searched: "as written", "snapped", "near",
 /// "undecided".
 fn measured((why, verdicts): &LooksRounded) -> Value {
     let figures = |(mobility, redundant): (usize, usize)| json!({ "mobility": mobility, "redundant": redundant });
@@ -283,7 +283,7 @@ pub(crate) fn end(outcome: &Outcome, variants: &Variants<'_>) -> Value {
     })
 }
 
-/// The flag of a condition that was eased, and the number it is eased to.
+/// Returns the name of a condition that was eased, and the number it is eased to.
 fn condition(how: Relaxation) -> (&'static str, Option<i64>) {
     match how {
         Relaxation::Redundant(n) => ("max-redundant", Some(i64::from(n))),

@@ -270,7 +270,7 @@ fn opinions(summary: &Summary) -> String {
     format!("{verdict} (cond.: the smallest over the largest)")
 }
 
-/// Some variants as a table.
+/// Returns some variants as a table.
 pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u16>) -> String {
     let ranking = outcome.ranking.as_ref();
     let checked = best.iter().any(|v| *v.second() != Second::Unasked);
@@ -310,7 +310,7 @@ pub(crate) fn variants(outcome: &Outcome, best: &[Variant<'_>], width: Option<u1
     table(&heads.join(" | "), rows, width)
 }
 
-/// σ contour by contour of some variants, those alike together.
+/// Returns σ by contour of some variants; equal ones share a line.
 pub(crate) fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
     let mut alike: Vec<(String, Vec<usize>)> = Vec::new();
     for v in best {
@@ -342,7 +342,7 @@ pub(crate) fn contours(best: &[Variant<'_>], width: Option<u16>) -> String {
     fit(&alike.iter().map(line).fold(head, |all, l| all + &l), width)
 }
 
-/// "1, 3-5" for 1, 3, 4, 5.
+/// Formats places: "1, 3-5" for 1, 3, 4, 5.
 fn runs(places: &[usize]) -> String {
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for &p in places {
@@ -361,7 +361,7 @@ fn runs(places: &[usize]) -> String {
     runs.iter().map(one).join(", ")
 }
 
-/// The mark of a variant that a footnote tells about.
+/// Returns the mark of a variant with a footnote.
 fn mark(v: &Variant<'_>) -> &'static str {
     match v.second() {
         Second::Failed => " ?",

@@ -59,7 +59,7 @@ impl<'a> ToldReactions<'a> {
 }
 
 impl<'a> ToldStatics<'a> {
-    /// The reactions of a state over a stroke, or in the pose of the file; the four-link groups by `methods`.
+    /// Describes the reactions of a state over a stroke, or in the pose of the file; the four-link groups by `methods`.
     pub fn new(
         m: &'a Mechanism,
         state: StateId,
@@ -80,7 +80,7 @@ impl<'a> ToldStatics<'a> {
         }
     }
 
-    /// The reactions of a mechanism that holds the part of a row.
+    /// Describes the reactions of a mechanism that holds the part of a row.
     pub fn round_a_part(
         g: &'a Gripping,
         row: &'a DiameterRow,
